@@ -1,0 +1,17 @@
+// Scalar and index types used everywhere.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include <Eigen/Core>
+
+namespace intarsia {
+
+using Real = double;
+using Index = std::uint32_t;
+using Vec3 = Eigen::Vector3d;
+
+inline constexpr Index kNone = std::numeric_limits<Index>::max();  // "no such element"
+
+}  // namespace intarsia

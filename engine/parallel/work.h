@@ -1,0 +1,40 @@
+// What a kernel may know of the run: whether to stop, and how far it has come.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+#include "engine/base/error.h"
+
+namespace intarsia {
+
+// fixed: results are a function of the input only. relaxed: exists to show what that costs.
+enum class Order : std::uint8_t { fixed = 0, relaxed = 1 };
+
+// Block size by the cost of one item; never a function of the thread count.
+enum class Cost : std::size_t { light = 4096, medium = 512, heavy = 64, single = 1 };
+
+class Work {
+ public:
+  Work() = default;
+  Work(const std::atomic<bool>* cancel, std::atomic<std::uint64_t>* done, Order order)
+      : cancel_(cancel), done_(done), order_(order) {}
+
+  bool cancelled() const { return cancel_ && cancel_->load(std::memory_order_relaxed); }
+  // Throws ErrorCode::cancelled if the run was asked to stop. Serial loops poll this every few thousand items.
+  void check() const {
+    if (cancelled()) throw Error(ErrorCode::cancelled, "the run was cancelled");
+  }
+  void tick(std::uint64_t items) const {
+    if (done_) done_->fetch_add(items, std::memory_order_relaxed);
+  }
+  Order order() const { return order_; }  // read by engine/parallel only
+
+ private:
+  const std::atomic<bool>* cancel_ = nullptr;
+  std::atomic<std::uint64_t>* done_ = nullptr;
+  Order order_ = Order::fixed;
+};
+
+}  // namespace intarsia
