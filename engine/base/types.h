@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace intarsia {
 
