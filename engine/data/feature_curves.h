@@ -17,13 +17,13 @@ struct FeatureCurves {
   CurveNetwork net;  // net.strength is the turn angle theta across the curve
 
   // Per point.
-  Vec3Array normal;                // unit
-  Vec3Array across;                // unit tangent across the curve: t_max on a ridge, t_min in a valley
-  std::vector<Real> kd;            // curvature across, positive for both channels: k_max, or -k_min in a valley
-  std::vector<Real> kmax, kmin;    // signed, as in CurvatureFields
-  std::vector<Real> extremality;   // sqrt(e_max^2 + e_min^2), interpolated from the ends of the mesh edge (Eq. 7)
-  std::vector<Real> sharpness;     // -k'' / kd^3 across the curve: about 0 on cylinders, tori and spheres
-  std::vector<Real> radius;        // rho of the fit: mean distance of its points
+  Vec3Array normal;               // unit
+  Vec3Array across;               // unit tangent across the curve: t_max on a ridge, t_min in a valley
+  std::vector<Real> kd;           // curvature across, positive for both channels: k_max, or -k_min in a valley
+  std::vector<Real> kmax, kmin;   // signed, as in CurvatureFields
+  std::vector<Real> extremality;  // sqrt(e_max^2 + e_min^2), interpolated from the ends of the mesh edge (Eq. 7)
+  std::vector<Real> sharpness;    // -k'' / kd^3 across the curve: about 0 on cylinders, tori and spheres
+  std::vector<Real> radius;       // rho of the fit: mean distance of its points
 
   // Per curve.
   std::vector<std::uint8_t> concave;  // channel: 0 convex (ridges), 1 concave (valleys); sharp curves have either

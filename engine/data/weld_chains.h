@@ -13,8 +13,8 @@ inline Index chain_of_end(Index end) { return end / 2; }
 inline Index opposite_end(Index end) { return end ^ 1u; }
 
 struct WeldedChains {
-  Csr chain;                   // a closed chain repeats its first item
-  std::vector<Index> source;   // welded chain -> the smallest chain that went into it
+  Csr chain;                  // a closed chain repeats its first item
+  std::vector<Index> source;  // welded chain -> the smallest chain that went into it
 };
 
 // mate[end] is the end it is joined to, or kNone. Two joined ends that hold the same item share it; otherwise both stay

@@ -15,7 +15,9 @@ struct Cloud {
   std::size_t kdtree_get_point_count() const { return point.size(); }
   Real kdtree_get_pt(std::size_t i, std::size_t axis) const { return point[i][static_cast<Eigen::Index>(axis)]; }
   template <class Box>
-  bool kdtree_get_bbox(Box&) const { return false; }
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
 };
 
 using Tree =

@@ -17,9 +17,9 @@ namespace intarsia::kernels {
 struct CrestFields {
   CrestFields(const CurvatureFields& fields, CurveKind channel);
 
-  Real k(Index v) const { return sign * k_[v]; }          // curvature across the crest, the larger one
+  Real k(Index v) const { return sign * k_[v]; }  // curvature across the crest, the larger one
   Real other_k(Index v) const { return sign * other_[v]; }
-  Real e(Index v) const { return sign * e_[v]; }          // derivative of k along the stored t
+  Real e(Index v) const { return sign * e_[v]; }  // derivative of k along the stored t
   Vec3 t(Index v) const { return t_[v]; }
   // A crest may pass here: k exceeds the other curvature in size, and the fit and its directions can be trusted.
   bool may_carry(Index v) const;
