@@ -1,0 +1,100 @@
+#include "tools/picture/strip.h"
+
+#include <array>
+#include <cmath>
+
+#include "tools/picture/best_view.h"
+#include "tools/picture/font.h"
+
+namespace intarsia::tools {
+namespace {
+
+struct LegendItem {
+  CurveKind kind;
+  const char* name;
+};
+constexpr std::array<LegendItem, 6> kLegend = {{{CurveKind::ridge, "ridge"},
+                                                {CurveKind::valley, "valley"},
+                                                {CurveKind::sharp, "sharp edge"},
+                                                {CurveKind::border, "border"},
+                                                {CurveKind::extension, "extension"},
+                                                {CurveKind::subdivision, "subdivision"}}};
+
+const TextStyle kTitle = {12.5f, 0.155f, {28, 30, 36}};
+const TextStyle kCaption = {10.0f, 0.125f, {112, 116, 126}};
+constexpr int kGap = 12, kTitleBaseline = 24, kCaptionBaseline = 43;  // pixels; baselines are below the panel
+
+void draw_centred(Image& image, float centre, float baseline, const std::string& text, TextStyle style, float room) {
+  const float width = text_width(text, style);
+  if (width > room) style.size *= room / width;
+  draw_text(image, std::round(centre - 0.5f * text_width(text, style)), baseline, text, style);
+}
+
+std::vector<LegendItem> kinds_shown(const Strip& strip) {
+  std::vector<LegendItem> shown;
+  for (const LegendItem& item : kLegend) {
+    const Rgb colour = style_of(item.kind).colour;
+    bool found = false;
+    for (const Panel& p : strip.panel)
+      found = found || std::any_of(p.lines.style.begin(), p.lines.style.end(),
+                                   [&](const LineStyle& s) { return s.colour == colour; });
+    if (found) shown.push_back(item);
+  }
+  return shown;
+}
+
+void draw_legend(Image& image, const std::vector<LegendItem>& items, float baseline) {
+  constexpr float kDash = 26, kSpace = 8, kBetween = 30;
+  float width = -kBetween;
+  for (const LegendItem& item : items) width += kDash + kSpace + text_width(item.name, kCaption) + kBetween;
+  float x = 0.5f * (static_cast<float>(image.width) - width);
+  for (const LegendItem& item : items) {
+    const LineStyle style = style_of(item.kind);
+    const float y = baseline - 0.35f * kCaption.size;
+    draw_stroke(image, x, y, x + kDash, y, style.width + 0.6f, style.colour);
+    x += kDash + kSpace;
+    draw_text(image, x, baseline, item.name, kCaption);
+    x += text_width(item.name, kCaption) + kBetween;
+  }
+}
+
+}  // namespace
+
+Image draw_strip(const Work& work, const Strip& strip) {
+  const StripOptions& o = strip.options;
+  if (strip.panel.empty()) throw Error(ErrorCode::bad_argument, "a strip needs at least one panel");
+  const Shape& first = strip.panel.front().shape;
+  const View view = o.view ? *o.view : best_view(work, first);
+  FitOptions fit;
+  fit.width = o.widest, fit.height = o.height;
+  const Camera camera = fit_camera_to_height(work, first, view, fit, std::min(o.widest, o.height / 3));
+
+  const int count = static_cast<int>(strip.panel.size());
+  const int per_row = o.per_row > 0 ? std::min(o.per_row, count) : count, rows = (count + per_row - 1) / per_row;
+  const bool captions =
+      std::any_of(strip.panel.begin(), strip.panel.end(), [](const Panel& p) { return !p.caption.empty(); });
+  const int text = (captions ? kCaptionBaseline : kTitleBaseline) + 12;
+  const std::vector<LegendItem> legend = o.legend ? kinds_shown(strip) : std::vector<LegendItem>{};
+  const int below = legend.empty() ? 0 : 30;
+  Image image(per_row * camera.width + (per_row + 1) * kGap, rows * (camera.height + text) + kGap + below);
+
+  Scene scene;
+  const Shape* prepared = nullptr;
+  for (int i = 0; i < count; ++i) {
+    const Panel& panel = strip.panel[static_cast<std::size_t>(i)];
+    if (!prepared || !prepared->same_geometry(panel.shape) || prepared->smooth != panel.shape.smooth ||
+        prepared->vertex_normal.x.data() != panel.shape.vertex_normal.x.data())
+      prepare_scene(work, panel.shape, camera, o.samples, scene);
+    prepared = &panel.shape;
+    const int left = kGap + (i % per_row) * (camera.width + kGap), top = kGap + (i / per_row) * (camera.height + text);
+    shade(work, panel.shape, panel.lines, o.shade, scene, image, left, top);
+    const float centre = static_cast<float>(left) + 0.5f * static_cast<float>(camera.width);
+    const auto bottom = static_cast<float>(top + camera.height), room = static_cast<float>(camera.width + kGap - 4);
+    draw_centred(image, centre, bottom + kTitleBaseline, panel.title, kTitle, room);
+    draw_centred(image, centre, bottom + kCaptionBaseline, panel.caption, kCaption, room);
+  }
+  if (!legend.empty()) draw_legend(image, legend, static_cast<float>(image.height) - 14);
+  return image;
+}
+
+}  // namespace intarsia::tools
