@@ -1,0 +1,28 @@
+// Carries patch ids from one refinement of a mesh to another one, whose patch borders have moved a little.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/data/layout_graph.h"
+#include "engine/parallel/work.h"
+
+namespace intarsia::kernels {
+
+struct LabelMatch {
+  std::vector<Index> old_of_new;  // new component -> old patch, kNone if it overlaps none
+  std::vector<Index> trouble;     // old patches, ascending, that are lost, split, or changed beyond recognition
+  bool ok = false;                // one component for each old patch and no trouble
+};
+
+// Every new component gets the old patch it shares most area with. Parents that are cut count by the product of the two
+// shares of their area. An old patch is in trouble if it does not get exactly one component, or if that component
+// shares less than half of the patch's area. Requires: labels per refined face, below the given counts.
+LabelMatch match_labels(const Work& work, MeshView original, const RefinedMesh& old_refined,
+                        std::span<const Index> old_label, Index old_count, const RefinedMesh& new_refined,
+                        std::span<const Index> new_label, Index new_count);
+
+// One flag per arc: 1 if a patch in trouble lies on either side. For cross_edges(keep_chain).
+std::vector<std::uint8_t> arcs_of_patches(const LayoutGraph& graph, std::span<const Index> patches);
+
+}  // namespace intarsia::kernels
