@@ -1,21 +1,60 @@
 #include "engine/io/read_mesh.h"
 
 #include <new>
+#include <string>
 
 #include "engine/io/file_bytes.h"
 #include "engine/io/file_error.h"
+#include "engine/io/plain_text.h"
 #include "engine/io/read_ply.h"
+#include "engine/io/read_stl.h"
+#include "engine/io/read_with_openmesh.h"
+#include "engine/io/text_scanner.h"
 
 namespace intarsia {
+namespace {
+
+enum class Format { ply, obj, stl, off };
+
+Format format_of(const std::filesystem::path& path, std::string_view file) {
+  TextScanner scanner(file.substr(0, 64));
+  const std::string_view word = scanner.word();
+  if (word == "ply") return Format::ply;
+  if (word == "OFF" || word == "COFF" || word == "NOFF" || word == "CNOFF" || word.substr(0, 5) == "STOFF")
+    return Format::off;
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  if (extension == ".ply") return Format::ply;
+  if (extension == ".obj") return Format::obj;
+  if (extension == ".stl") return Format::stl;
+  if (extension == ".off") return Format::off;
+  throw_bad_file(path, "is no file of a kind that can be read", "give a .ply, .obj, .stl or .off file");
+}
+
+Soup read(const Work& work, const std::filesystem::path& path, std::string_view file) {
+  switch (format_of(path, file)) {
+    case Format::ply:
+      break;
+    case Format::obj:
+      return read_with_openmesh(work, path, plain_obj(work, path, file), "obj");
+    case Format::stl:
+      return read_stl(work, path, file);
+    case Format::off:
+      return read_with_openmesh(work, path, plain_off(work, path, file), "off");
+  }
+  return read_ply(work, path, file);
+}
+
+}  // namespace
 
 Soup read_mesh(const Work& work, const std::filesystem::path& path) {
   try {
     const FileBytes file(work, path);
     if (file.view().empty()) throw_bad_file(path, "is empty", kCureExportAgain);
-    Soup soup = read_ply(work, path, file.view());
+    Soup soup = read(work, path, file.view());
     if (soup.corner.empty())
-      throw_bad_file(path, "has " + std::to_string(soup.vertex_count()) + " vertices but no faces",
-                     "give a surface of triangles or polygons, not a point cloud");
+      throw_bad_file(path, "has " + std::to_string(soup.vertex_count()) + " vertices but no triangles or polygons",
+                     "give a surface, not a point cloud or curves");
     return soup;
   } catch (const std::bad_alloc&) {
     throw Error(ErrorCode::no_memory,
