@@ -1,0 +1,153 @@
+#include "kernels/curvature/cubic_system.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace intarsia::kernels {
+
+namespace {
+
+// One factor * x^i y^j; factor 0 where a row does not know the unknown.
+struct Monomial {
+  Real factor;
+  std::size_t i, j;
+};
+constexpr std::size_t place(std::size_t i, std::size_t j) { return (i + j) * (i + j + 1) / 2 + j; }
+
+// Height, slope in x and slope in y of every unknown.
+constexpr Monomial kNothing{0, 0, 0};
+constexpr std::array<std::array<Monomial, kCubicTerms>, 3> kRow{{
+    {{{0.5, 2, 0},
+      {1, 1, 1},
+      {0.5, 0, 2},
+      {1.0 / 6, 3, 0},
+      {0.5, 2, 1},
+      {0.5, 1, 2},
+      {1.0 / 6, 0, 3},
+      {1, 1, 0},
+      {1, 0, 1},
+      {1, 0, 0}}},
+    {{{1, 1, 0}, {1, 0, 1}, kNothing, {0.5, 2, 0}, {1, 1, 1}, {0.5, 0, 2}, kNothing, {1, 0, 0}, kNothing, kNothing}},
+    {{kNothing, {1, 1, 0}, {1, 0, 1}, kNothing, {0.5, 2, 0}, {1, 1, 1}, {0.5, 0, 2}, kNothing, {1, 0, 0}, kNothing}},
+}};
+
+// Entry (r, c), c <= r, of the normal matrix as a combination of three moments; and of the right-hand side.
+struct Entry {
+  std::array<Real, 3> factor;
+  std::array<std::size_t, 3> moment;
+};
+struct Table {
+  std::array<Entry, kCubicTerms*(kCubicTerms + 1) / 2> matrix;
+  std::array<Entry, kCubicTerms> right;
+};
+constexpr Table make_table() {
+  Table t{};
+  for (std::size_t r = 0, at = 0; r < kCubicTerms; ++r) {
+    for (std::size_t c = 0; c <= r; ++c, ++at)
+      for (std::size_t row = 0; row < 3; ++row) {
+        const Monomial &m = kRow[row][r], &n = kRow[row][c];
+        t.matrix[at].factor[row] = m.factor * n.factor;
+        t.matrix[at].moment[row] = m.factor * n.factor == 0 ? 0 : place(m.i + n.i, m.j + n.j);
+      }
+    for (std::size_t row = 0; row < 3; ++row) {
+      const Monomial& m = kRow[row][r];
+      t.right[r].factor[row] = m.factor;
+      t.right[r].moment[row] = m.factor == 0 ? 0 : place(m.i, m.j);
+    }
+  }
+  return t;
+}
+constexpr Table kTable = make_table();
+
+// powers[d] = unit^-d.
+template <std::size_t Size>
+std::array<Real, Size> scaled(const std::array<Real, Size>& sums, const std::array<Real, 7>& powers, Real factor) {
+  std::array<Real, Size> out;
+  for (std::size_t i = 0, degree = 0, left = 1; i < Size; ++i) {
+    out[i] = sums[i] * (powers[degree] * factor);
+    if (--left == 0) ++degree, left = degree + 1;
+  }
+  return out;
+}
+
+template <std::size_t N>
+bool solve(const CubicSums& sums, Real unit, Real least_pivot, std::array<Real, N>& x) {
+  std::array<Real, 7> powers;
+  powers[0] = 1;
+  for (std::size_t d = 1; d < 7; ++d) powers[d] = powers[d - 1] / unit;
+  const auto moment = scaled(sums.moment, powers, 1);
+  const auto height = scaled(sums.height, powers, powers[1]);
+  const auto slope_x = scaled(sums.slope_x, powers, 1), slope_y = scaled(sums.slope_y, powers, 1);
+
+  Real a[N][N];
+  for (std::size_t r = 0, at = 0; r < N; ++r) {
+    for (std::size_t c = 0; c <= r; ++c, ++at) {
+      const Entry& e = kTable.matrix[at];
+      a[r][c] =
+          e.factor[0] * moment[e.moment[0]] + e.factor[1] * moment[e.moment[1]] + e.factor[2] * moment[e.moment[2]];
+    }
+    const Entry& e = kTable.right[r];
+    x[r] = e.factor[0] * height[e.moment[0]] + e.factor[1] * slope_x[e.moment[1]] + e.factor[2] * slope_y[e.moment[2]];
+  }
+
+  // LDL^T in place: column c of L below the diagonal, D in `pivot`.
+  Real pivot[N], largest = 0, smallest = 0;
+  for (std::size_t c = 0; c < N; ++c) {
+    Real d = a[c][c];
+    Real scaled_row[N];
+    for (std::size_t k = 0; k < c; ++k) {
+      scaled_row[k] = a[c][k] * pivot[k];
+      d -= a[c][k] * scaled_row[k];
+    }
+    largest = std::max(largest, d);
+    smallest = c == 0 ? d : std::min(smallest, d);
+    if (!(smallest > least_pivot * largest)) return false;
+    pivot[c] = d;
+    const Real inverse = 1 / d;
+    for (std::size_t r = c + 1; r < N; ++r) {
+      Real s = a[r][c];
+      for (std::size_t k = 0; k < c; ++k) s -= a[r][k] * scaled_row[k];
+      a[r][c] = s * inverse;
+    }
+  }
+  for (std::size_t r = 0; r < N; ++r)
+    for (std::size_t c = 0; c < r; ++c) x[r] -= a[r][c] * x[c];
+  for (std::size_t r = 0; r < N; ++r) x[r] /= pivot[r];
+  for (std::size_t r = N; r-- > 0;)
+    for (std::size_t below = r + 1; below < N; ++below) x[r] -= a[below][r] * x[below];
+  for (Real value : x)
+    if (!std::isfinite(value)) return false;
+  return true;
+}
+
+template <std::size_t N>
+bool solve_into(const CubicSums& sums, Real least_pivot, CubicFit& fit) {
+  const Real unit = sums.unit();
+  if (!(unit > 0)) return false;
+  std::array<Real, N> x;
+  if (!solve<N>(sums, unit, least_pivot, x)) return false;
+  fit = {};
+  for (std::size_t i = 0; i < 3; ++i) fit.b[i] = x[i] / unit;
+  if constexpr (N >= 7)
+    for (std::size_t i = 0; i < 4; ++i) fit.c[i] = x[3 + i] / (unit * unit);
+  if constexpr (N >= 9) fit.gradient = {x[7], x[8]};
+  if constexpr (N >= 10) fit.offset = x[9] * unit;
+  return true;
+}
+
+}  // namespace
+
+bool solve_cubic(const CubicSums& sums, std::size_t terms, Real least_pivot, CubicFit& fit) {
+  switch (terms) {
+    case 3:
+      return solve_into<3>(sums, least_pivot, fit);
+    case 7:
+      return solve_into<7>(sums, least_pivot, fit);
+    case 9:
+      return solve_into<9>(sums, least_pivot, fit);
+    default:
+      return solve_into<10>(sums, least_pivot, fit);
+  }
+}
+
+}  // namespace intarsia::kernels

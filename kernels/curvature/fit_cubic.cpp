@@ -1,0 +1,131 @@
+#include "kernels/curvature/fit_cubic.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/parallel/for_each.h"
+#include "engine/parallel/scratch_pool.h"
+
+namespace intarsia::kernels {
+
+namespace {
+
+// Adds the point at offset d with normal m, in the frame. The slope rows divide by the normal component of m.
+void add_point(const Frame& frame, const Vec3& d, const Vec3& m, Real weight, Real gate, CubicSums& sums) {
+  const Real up = frame.n.dot(m);
+  if (!(up >= gate)) return;
+  sums.add(frame.u.dot(d), frame.v.dot(d), frame.n.dot(d), -frame.u.dot(m) / up, -frame.v.dot(m) / up, weight,
+           d.norm());
+}
+
+}  // namespace
+
+Frame::Frame(const Vec3& normal) : n(normal) {
+  const Real sign = std::copysign(Real(1), n.z());
+  const Real a = -1 / (sign + n.z()), b = n.x() * n.y() * a;
+  u = {1 + sign * n.x() * n.x() * a, sign * b, -sign * n.x()};
+  v = {b, sign + n.y() * n.y() * a, -n.y()};
+}
+
+VertexFit fit_rings(const MeshView& mesh, const Vec3View& normal, Index v, const Frame& frame, int ring,
+                    std::size_t terms, const FitOptions& options, RingWalker& walker) {
+  const Vec3 centre = mesh.point(v);
+  CubicSums sums;
+  VertexFit fit;
+  walker.walk(v, ring);
+  std::size_t used = 0;
+  const auto add_walked = [&] {
+    const auto points = walker.vertices(walker.depth());
+    for (; used < points.size(); ++used) {
+      const Index q = points[used];
+      add_point(frame, mesh.point(q) - centre, normal[q], 1, options.normal_gate, sums);
+    }
+  };
+  const auto accept = [&](std::size_t with, FitStatus status) {
+    if (sums.count < 3 || !solve_cubic(sums, with, options.least_pivot, fit.cubic)) return false;
+    fit.status = status;
+    return true;
+  };
+  add_walked();
+  if (!accept(terms, FitStatus::full))
+    for (int extra = 1; extra <= options.extra_rings; ++extra) {
+      walker.extend(ring + extra);
+      if (walker.depth() < ring + extra) break;
+      add_walked();
+      if (accept(terms, FitStatus::ring_grown)) break;
+    }
+  if (fit.status == FitStatus::invalid) accept(3, FitStatus::quadratic);
+  fit.radius = sums.unit();
+  fit.ring = walker.depth();
+  return fit;
+}
+
+std::vector<Vec3Array> sample_normals(const Work& work, const MeshView& mesh, const SampleLevels& levels,
+                                      const Vec3View& normal) {
+  std::vector<Vec3Array> out;
+  for (std::size_t l = 0; l < levels.level.size(); ++l) {
+    const SampleLevel& level = levels.level[l];
+    Vec3Array mean(level.size());
+    for_each(work, Cost::light, level.size(), [&](std::size_t c) {
+      Vec3 sum = Vec3::Zero();
+      for (Index i : level.member.row(static_cast<Index>(c))) {
+        if (l > 0) {
+          sum += levels.level[l - 1].area[i] * out[l - 1][i];
+          continue;
+        }
+        // Without areas per vertex a vertex counts by its share of faces.
+        sum += static_cast<Real>(mesh.vertex_faces.row(i).size()) * normal[i];
+      }
+      const Real length = sum.norm();
+      mean.set(c, length > 0 ? Vec3(sum / length) : Vec3(Vec3::Zero()));
+    });
+    out.push_back(std::move(mean));
+  }
+  return out;
+}
+
+VertexFit fit_disc(const MeshView& mesh, const SampleLevels& levels, std::span<const Vec3Array> sample_normal, Index v,
+                   Index c, int code, const Frame& frame, const FitOptions& options, DiscWalker& walker) {
+  const Real radius = disc_radius(code);
+  const Vec3 centre = mesh.point(v);
+  const DiscWalker::Samples samples = walker.around(c, code);
+  const SampleLevel& level = levels.level[samples.level];
+  const Vec3Array& normal = sample_normal[samples.level];
+  const Real limit = radius + 0.5 * samples.cell;
+  CubicSums sums;
+  for (Index s : samples.id) {
+    const Vec3 d = level.centre[s] - centre;
+    const Real squared = d.squaredNorm();
+    if (squared >= limit * limit) continue;
+    const Real weight = level.area[s] * ramp(std::sqrt(squared), radius, samples.cell);
+    add_point(frame, d, normal[s], weight, options.normal_gate, sums);
+  }
+  VertexFit fit;
+  fit.radius = sums.unit();
+  fit.ring = code;
+  if (sums.count >= 5 && solve_cubic(sums, 10, options.least_pivot, fit.cubic)) fit.status = FitStatus::full;
+  return fit;
+}
+
+void refine_normals(const Work& work, const MeshView& mesh, const Vec3View& normal_in,
+                    std::span<const std::uint8_t> fit_ring, std::span<const std::uint8_t> barrier,
+                    const FitOptions& options, Vec3Array& normal_out) {
+  normal_out.resize(mesh.vertex_count());
+  auto pool = make_scratch_pool([&] { return RingWalker(mesh, barrier); });
+  for_each_block(work, Cost::medium, mesh.vertex_count(), [&](std::size_t begin, std::size_t end, std::size_t) {
+    const auto walker = pool.borrow();
+    for (std::size_t v = begin; v < end; ++v) {
+      const Vec3 old = normal_in[v];
+      normal_out.set(v, old);
+      if (!(old.squaredNorm() > 0.5)) continue;
+      const Frame frame(old);
+      const int ring = is_disc(fit_ring[v]) ? options.refine_ring : fit_ring[v];
+      const VertexFit fit = fit_rings(mesh, normal_in, static_cast<Index>(v), frame, ring, 9, options, *walker);
+      const auto [g1, g2] = fit.cubic.gradient;
+      if (fit.status == FitStatus::full || fit.status == FitStatus::ring_grown)
+        if (g1 * g1 + g2 * g2 < 1) normal_out.set(v, (frame.n - g1 * frame.u - g2 * frame.v).normalized());
+    }
+  });
+}
+
+}  // namespace intarsia::kernels

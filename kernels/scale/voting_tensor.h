@@ -1,0 +1,54 @@
+// Normal voting tensor and surface variation in six nested rings.
+//
+// T_k(P) = sum over N_k(P) of A_f exp(-|c_f - P| / max |c_f - P|) n_f n_f^T, omega_k = (l2 + l3) / l1 of its
+// eigenvalues l1 >= l2 >= l3 (Cao, Yan, Wonka 2014, Eq. 4-6; the division by the largest area cancels in omega and is
+// left out). omega is 0 on a plane, 1 on a symmetric right-angled crease, 2 in the corner of a cube.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "engine/data/k_ring.h"
+#include "engine/data/mesh.h"
+#include "engine/data/sample_levels.h"
+#include "engine/parallel/work.h"
+
+namespace intarsia::kernels {
+
+// What the tensor needs of a face, side by side: faces are gathered, not streamed.
+struct alignas(64) FaceRecord {
+  Vec3 centroid;
+  Vec3 normal;  // unit; zero where area is 0
+  Real area;    // 0 for degenerate faces (at most 1e-14 of the squared diagonal): they vote for nothing
+};
+
+std::vector<FaceRecord> face_records(const Work& work, const MeshView& mesh);
+
+using Tensor = std::array<Real, 6>;  // symmetric: xx, xy, xz, yy, yz, zz
+using RingValues = std::array<Real, kRings>;
+
+// Eq. 6 of one vertex and the first-moment reading of the same votes.
+struct Variation {
+  RingValues omega;   // Eq. 6, in [0, 2]; 0 where no face votes
+  RingValues folded;  // omega, or 1/m^2 - 1 with m = |sum mu n| / sum mu where that is above 1 and above omega: n n^T
+                      // does not see the sign of n, so omega falls back to 0 at knife edges. Only filled if asked for.
+};
+
+// Scratch of variation_of: the faces of N_6 as arrays, grown to the largest neighbourhood met.
+struct VotingScratch {
+  std::vector<Real> distance, weight, area, nx, ny, nz;
+};
+
+// The variation of vertex v in rings 1 .. 6.
+// Ensures: no NaN; a vertex without faces gets zeros. Walks `walker`.
+Variation variation_of(const MeshView& mesh, std::span<const FaceRecord> faces, Index v, bool fold_guard,
+                       RingWalker& walker, VotingScratch& scratch);
+
+// (trace - l1) / l1; 0 if the trace is not positive.
+Real variation_of_tensor(const Tensor& tensor);
+
+// exp(-t) for t in [0, 1], to 1e-15, without a call.
+Real decay(Real t);
+
+}  // namespace intarsia::kernels
