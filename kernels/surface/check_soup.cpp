@@ -122,7 +122,7 @@ struct Star {
     judge(next), judge(prev);
     return worst;
   }
-  // Requires: no edge defect. True if walking from face to face around the vertex reaches all of them.
+  // True if walking from face to face around the vertex reaches all of them.
   bool is_one_fan() const {
     if (spoke.size() < 2) return true;
     Index first = spoke.front().next;
@@ -132,7 +132,7 @@ struct Star {
         break;
       }
     std::size_t seen = 0;
-    for (Index at = first;;) {
+    for (Index at = first; seen < spoke.size();) {  // bounded: edges to smaller vertices are judged elsewhere
       const auto it =
           std::lower_bound(spoke.begin(), spoke.end(), at, [](const Spoke& s, Index v) { return s.next < v; });
       if (it == spoke.end() || it->next != at) break;

@@ -123,8 +123,7 @@ TEST_CASE("every aligned run of a square grid covers few cells") {
   for (Index run : {8u, 16u, 64u, 256u})
     for (Index begin = 0; begin < s.mesh.vertex_count(); begin += run) {
       Vec3 low = s.point(begin), high = low;
-      for (Index v = begin; v < begin + run; ++v)
-        low = low.cwiseMin(s.point(v)), high = high.cwiseMax(s.point(v));
+      for (Index v = begin; v < begin + run; ++v) low = low.cwiseMin(s.point(v)), high = high.cwiseMax(s.point(v));
       const Real cell = 1 / (63 * std::sqrt(2.0));
       const Real cells = ((high.x() - low.x()) / cell + 1) * ((high.y() - low.y()) / cell + 1);
       CHECK(std::lround(cells) == run);  // a full rectangle
@@ -146,7 +145,7 @@ TEST_CASE("a doubled sheet is told apart by what lies at its border") {
   // Two coincident sheets, one of them with an extra triangle: their vertices differ only by what is far away.
   Soup sheets = joined(plane(6, 6), plane(6, 6));
   const Index extra = add_vertex(sheets, {-1, 0.5, 0.3});
-  add_face(sheets, 7, 0, extra);
+  add_face(sheets, 0, 7, extra);
   const TestSurface base = make_surface(sheets);
   for (std::uint64_t seed = 1; seed <= 5; ++seed) check_same(base.mesh, make_surface(shuffle(sheets, seed)).mesh);
 }

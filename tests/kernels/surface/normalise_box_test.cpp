@@ -32,8 +32,7 @@ TEST_CASE("the box of a cube") {
   CHECK((t.to_input(t.to_unit({3, 2, 1})) - Vec3(3, 2, 1)).norm() < 1e-14);
   const TestSurface s = make_surface(soup);
   Vec3 low = s.point(0), high = low;
-  for (Index v = 0; v < s.mesh.vertex_count(); ++v)
-    low = low.cwiseMin(s.point(v)), high = high.cwiseMax(s.point(v));
+  for (Index v = 0; v < s.mesh.vertex_count(); ++v) low = low.cwiseMin(s.point(v)), high = high.cwiseMax(s.point(v));
   CHECK((high - low).norm() == doctest::Approx(1).epsilon(1e-15));
   CHECK((high + low).norm() < 1e-15);
 }
