@@ -1,0 +1,80 @@
+#include "kernels/patches/patch_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/parallel/compact.h"
+#include "engine/parallel/reduce.h"
+
+namespace intarsia::kernels {
+namespace {
+
+// Boundary loops in order of their smallest edge. A loop turns inside the surface at vertices with several fans.
+void find_short_holes(const Work& work, Real hole_length, PatchSurface& s) {
+  const MeshView& mesh = s.mesh;
+  s.hole.offset.assign(1, 0);
+  s.beside_hole.assign(mesh.face_count(), 0);
+  const auto boundary = compact(work, mesh.edge_count(), [&](std::size_t e) { return mesh.edge_f1[e] == kNone; });
+  std::vector<std::uint8_t> seen(boundary.size(), 0);
+  const auto position = [&](Index e) {
+    return static_cast<std::size_t>(std::lower_bound(boundary.begin(), boundary.end(), e) - boundary.begin());
+  };
+  std::vector<Index> loop;
+  for (std::size_t start = 0; start < boundary.size(); ++start) {
+    if (seen[start]) continue;
+    if (start % 4096 == 0) work.check();
+    loop.clear();
+    Real length = 0;
+    for (Index e = boundary[start]; !seen[position(e)];) {
+      seen[position(e)] = 1;
+      loop.push_back(e);
+      length += s.edge_length(e);
+      const Index f = mesh.edge_f0[e];
+      Index i = 0;
+      while (mesh.face_edge[3 * f + i] != e) ++i;
+      const Index next = next_border(
+          mesh, 3 * f + i, [&](Index x) { return mesh.edge_f1[x] != kNone; }, [](Index x) { return x; });
+      e = mesh.face_edge[next];
+    }
+    if (length >= hole_length) continue;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      s.hole_before.push_back({loop[i], loop[(i + loop.size() - 1) % loop.size()]});
+      s.beside_hole[mesh.edge_f0[loop[i]]] = 1;
+    }
+    s.hole.item.insert(s.hole.item.end(), loop.begin(), loop.end());
+    s.hole.offset.push_back(static_cast<Index>(s.hole.item.size()));
+  }
+  std::sort(s.hole_before.begin(), s.hole_before.end());
+}
+
+}  // namespace
+
+Index PatchSurface::before_on_hole(Index e) const {
+  const auto it = std::lower_bound(hole_before.begin(), hole_before.end(), std::pair<Index, Index>{e, 0});
+  return it != hole_before.end() && it->first == e ? it->second : kNone;
+}
+
+PatchSurface make_patch_surface(const Work& work, const RefinedMesh& refined, Vec3View parent_normal, Real mean_edge,
+                                Real hole_length) {
+  PatchSurface s;
+  s.mesh = refined.mesh.view();
+  s.strength = refined.edge_strength;
+  s.mean_edge = mean_edge;
+  const Index faces = s.mesh.face_count();
+  s.area.resize(faces);
+  s.normal.resize(faces);
+  for_each(work, Cost::light, faces, [&](std::size_t i) {
+    const Index f = static_cast<Index>(i);
+    const auto [a, b, c] = s.mesh.face(f);
+    const Vec3 p = s.mesh.point(a);
+    const Vec3 cross = (s.mesh.point(b) - p).cross(s.mesh.point(c) - p);
+    s.area[f] = cross.norm() / 2;
+    const Vec3 n = parent_normal[refined.parent[f]];
+    s.normal.set(f, std::isfinite(n.x() + n.y() + n.z()) ? n : Vec3::Zero());
+  });
+  s.total_area = sum(work, Cost::light, faces, Real{0}, [&](std::size_t f) { return s.area[f]; });
+  find_short_holes(work, hole_length, s);
+  return s;
+}
+
+}  // namespace intarsia::kernels

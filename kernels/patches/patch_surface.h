@@ -1,0 +1,62 @@
+// The surface as the patch kernels see it: areas, original normals, and the small holes that count as filled.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/data/curve_network.h"
+#include "engine/data/mesh.h"
+#include "engine/parallel/work.h"
+
+namespace intarsia::kernels {
+
+struct PatchSurface {
+  MeshView mesh;
+  std::span<const Real> strength;  // per edge: turn angle of the feature it carries, 0 elsewhere
+  std::vector<Real> area;          // per face
+  Vec3Array normal;                // per face: unit normal of its parent (a sliver has none of its own), or zero
+  Real total_area = 0;
+  Real mean_edge = 0;  // of the input mesh: refinement must not change what counts as thin
+  Csr hole;            // short boundary loop -> its edges in order along the loop
+  std::vector<std::pair<Index, Index>> hole_before;  // (edge, edge before it on its loop), sorted
+  std::vector<std::uint8_t> beside_hole;             // per face: 1 if it has an edge on such a loop
+
+  Index neighbour(Index f, int i) const { return mesh.other_face(mesh.face_edge[3 * f + i], f); }
+  Vec3 centroid(Index f) const {
+    const auto [a, b, c] = mesh.face(f);
+    return (mesh.point(a) + mesh.point(b) + mesh.point(c)) / 3;
+  }
+  Real edge_length(Index e) const { return (mesh.point(mesh.edge_v1[e]) - mesh.point(mesh.edge_v0[e])).norm(); }
+  // The edge before e on its short boundary loop, or kNone if e is on none.
+  Index before_on_hole(Index e) const;
+};
+
+// Requires: unit (or zero) parent normals, one per original face; mean_edge > 0. Keeps views of `refined`.
+// hole_length: boundary loops of the surface shorter than this count as filled (section 17.1).
+PatchSurface make_patch_surface(const Work& work, const RefinedMesh& refined, Vec3View parent_normal, Real mean_edge,
+                                Real hole_length = 0.05);
+
+// The half-edge opposite corner c = 3 f + i runs from corner i+1 to corner i+2. This is the half-edge that follows it
+// around its head, turning inside the faces for which crossing(edge) holds until it meets an edge that must not be
+// crossed. across_hole(edge) gives, for a boundary edge that may be crossed, the boundary edge on the other side.
+template <class Crossing, class AcrossHole>
+Index next_border(const MeshView& mesh, Index c, const Crossing& crossing, const AcrossHole& across_hole) {
+  Index f = c / 3, i = c % 3;
+  for (Index steps = 0;; ++steps) {
+    i = (i + 1) % 3;
+    const Index e = mesh.face_edge[3 * f + i];
+    if (!crossing(e)) return 3 * f + i;
+    Index beyond = e, g = mesh.other_face(e, f);
+    if (g == kNone) {
+      beyond = across_hole(e);
+      g = mesh.edge_f0[beyond];
+    }
+    f = g;
+    for (i = 0; mesh.face_edge[3 * f + i] != beyond;) ++i;
+    if (steps > mesh.face_count()) return 3 * f + i;  // cannot happen on a connected surface; never loop for ever
+  }
+}
+
+}  // namespace intarsia::kernels

@@ -1,0 +1,38 @@
+// Dividing patches whose normals spread too far (the paper's pi/2 rule, section 10; trimmed: lessons 0.6).
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+
+#include "kernels/patches/fit_proxies.h"
+#include "kernels/patches/relax_borders.h"
+
+namespace intarsia::kernels {
+
+struct SplitOptions {
+  Real max_spread = std::numbers::pi / 2;  // radians (paper)
+  Real trim = 0.08;                        // share of the area left out at each end of the spread
+  bool literal = false;                    // paper: any two triangles decide, not the trimmed spread
+  bool random_seeds = false;               // paper: two random first seeds, keyed by (seed, patch)
+  std::uint64_t seed = 0;
+  bool smooth_normals = true;  // grow by normals averaged with the neighbours'
+  FitOptions fit;
+  RelaxOptions relax;
+};
+
+// The bracketed values of section 18.
+SplitOptions paper_split(std::uint64_t seed);
+
+// Patches whose spread is too large become regions by variational shape approximation from two seeds, with one more
+// seed in the worst region until every region complies (with eight or more regions: in a quarter of the worst at a
+// time). Flat patches stay whole. Patches are independent of each other and of the number of threads.
+// Ensures: every patch connected; no border of `labels` is moved or lost.
+PatchLabels split_patches(const Work& work, const PatchSurface& surface, const PatchLabels& labels,
+                          const SplitOptions& options);
+
+// Approximation of one region by exactly `count` proxies (fewer only if it has fewer nodes); writes regions.label and
+// returns the number of regions.
+Index approximate_region(const Work& work, const PatchSurface& surface, const Region& region, Index count,
+                         const SplitOptions& options, Regions& regions);
+
+}  // namespace intarsia::kernels
