@@ -1,6 +1,8 @@
 #include "engine/io/plain_text.h"
 
+#include <algorithm>
 #include <limits>
+#include <span>
 
 #include "engine/io/face_collector.h"
 #include "engine/io/file_error.h"
@@ -45,16 +47,18 @@ class PlainWriter {
     check_vertex_count(path_, plain_.x.size());
   }
 
-  // `corners` in the numbering of the format.
-  void face(const std::vector<std::int64_t>& corners, bool with_count) {
+  // `vertex`: counted from 0; `shown`: as the format has it.
+  void face(std::span<const std::int64_t> vertex, std::span<const std::int64_t> shown, std::string_view prefix) {
     const std::uint64_t id = plain_.face_count++;
-    if (corners.size() < 3) {
-      plain_.short_face.push_back(id);
+    if (vertex.size() < 3 || repeats(vertex)) {
+      const std::size_t begin = plain_.odd_corner.size();
+      plain_.odd_corner.insert(plain_.odd_corner.end(), vertex.begin(), vertex.end());
+      plain_.odd_face.push_back({id, begin, plain_.odd_corner.size()});
       return;
     }
-    plain_.text += with_count ? std::to_string(corners.size()) : "f";
-    for (const std::int64_t c : corners) {
-      if (c < -std::int64_t{kMostCorner} || c > std::int64_t{kMostCorner})
+    plain_.text += prefix;
+    for (const std::int64_t c : shown) {
+      if (c < -kMostCorner || c > kMostCorner)
         fail("face " + std::to_string(id) + " (counted from 0) names vertex " + std::to_string(c), id);
       plain_.text += ' ';
       plain_.text += std::to_string(c);
@@ -62,21 +66,32 @@ class PlainWriter {
     plain_.text += '\n';
   }
 
+  std::int64_t vertex_count() const { return static_cast<std::int64_t>(plain_.x.size()); }
   std::uint64_t face_count() const { return plain_.face_count; }
   PlainText take() { return std::move(plain_); }
 
  private:
-  static constexpr int kMostCorner = std::numeric_limits<int>::max() - 1;  // OpenMesh numbers with int
+  static constexpr std::int64_t kMostCorner = std::numeric_limits<int>::max() - 1;  // OpenMesh numbers with int
+
+  bool repeats(std::span<const std::int64_t> vertex) {
+    if (vertex.size() == 3) return vertex[0] == vertex[1] || vertex[1] == vertex[2] || vertex[2] == vertex[0];
+    sorted_.assign(vertex.begin(), vertex.end());
+    std::sort(sorted_.begin(), sorted_.end());
+    return std::adjacent_find(sorted_.begin(), sorted_.end()) != sorted_.end();
+  }
 
   const Work& work_;
   const std::filesystem::path& path_;
   TextScanner file_;
   std::uint64_t line_number_ = 0;
   PlainText plain_;
+  std::vector<std::int64_t> sorted_;
 };
 
-void obj_face(PlainWriter& writer, TextScanner& words, std::vector<std::int64_t>& corners) {
+void obj_face(PlainWriter& writer, TextScanner& words, std::vector<std::int64_t>& corners,
+              std::vector<std::int64_t>& vertices) {
   corners.clear();
+  vertices.clear();
   for (std::string_view word = words.word(); !word.empty() && word.front() != '#'; word = words.word()) {
     std::int64_t corner = 0;
     if (!parse_integer(word.substr(0, word.find('/')), corner) || corner == 0)
@@ -84,8 +99,9 @@ void obj_face(PlainWriter& writer, TextScanner& words, std::vector<std::int64_t>
                       "', which names no vertex",
                   writer.face_count());
     corners.push_back(corner);
+    vertices.push_back(corner > 0 ? corner - 1 : writer.vertex_count() + corner);
   }
-  writer.face(corners, false);
+  writer.face(vertices, corners, "f");
 }
 
 std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('#')); }
@@ -112,7 +128,7 @@ std::size_t off_keyword_length(PlainWriter& writer, std::string_view line) {
 
 PlainText plain_obj(const Work& work, const std::filesystem::path& path, std::string_view file) {
   PlainWriter writer(work, path, file);
-  std::vector<std::int64_t> corners;
+  std::vector<std::int64_t> corners, vertices;
   std::string joined;
   while (!writer.at_end()) {
     std::string_view line = writer.line();
@@ -129,7 +145,7 @@ PlainText plain_obj(const Work& work, const std::filesystem::path& path, std::st
     if (keyword == "v")
       writer.vertex(words, "v ");
     else if (keyword == "f" || keyword == "fo")  // fo: the same, from the first version of the format
-      obj_face(writer, words, corners);
+      obj_face(writer, words, corners, vertices);
   }
   return writer.take();
 }
@@ -167,12 +183,12 @@ PlainText plain_off(const Work& work, const std::filesystem::path& path, std::st
             static_cast<std::uint64_t>(f));
       corners.push_back(corner);
     }
-    writer.face(corners, true);
+    writer.face(corners, corners, std::to_string(count));
   }
   while (!writer.at_end())
     if (!TextScanner(without_comment(writer.line())).word().empty()) writer.fail("more data than the counts announce");
   PlainText plain = writer.take();
-  const std::uint64_t left = plain.face_count - plain.short_face.size();
+  const std::uint64_t left = plain.face_count - plain.odd_face.size();
   plain.text.insert(0, "OFF\n" + std::to_string(vertices) + " " + std::to_string(left) + " 0\n");
   return plain;
 }

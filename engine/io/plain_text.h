@@ -15,10 +15,17 @@
 namespace intarsia {
 
 struct PlainText {
-  std::string text;                       // vertices and faces of three or more corners, one a line
-  std::vector<Real> x, y, z;              // of all vertices, in the precision of the file
-  std::vector<std::uint64_t> short_face;  // faces left out of `text`: fewer than three corners; ascending
-  std::uint64_t face_count = 0;           // all faces of the file
+  // A face that OpenMesh would leave out or change: fewer than three corners, or corners that repeat.
+  struct OddFace {
+    std::uint64_t face;
+    std::size_t begin, end;  // of its corners in odd_corner
+  };
+
+  std::string text;                      // vertices and all other faces, one a line
+  std::vector<Real> x, y, z;             // of all vertices, in the precision of the file
+  std::vector<OddFace> odd_face;         // ascending
+  std::vector<std::int64_t> odd_corner;  // vertices counted from 0, not checked
+  std::uint64_t face_count = 0;          // all faces of the file
 };
 
 // Errors: bad_file naming the line (counted from 1) and the vertex or face; too_large.

@@ -1,6 +1,7 @@
 #include "engine/io/read_with_openmesh.h"
 
 #include <mutex>
+#include <span>
 #include <sstream>
 
 #include <OpenMesh/Core/IO/IOManager.hh>
@@ -21,10 +22,12 @@ class SoupImporter final : public om::IO::BaseImporter {
       : work_(work), plain_(plain), faces_(faces) {}
 
   std::uint64_t vertices_seen() const { return vertices_; }
-  void add_short_faces() {
-    for (; next_short_ < plain_.short_face.size() && plain_.short_face[next_short_] == faces_.face_count();
-         ++next_short_)
-      faces_.add_polygon({});
+  // Those whose turn it is.
+  void add_odd_faces() {
+    for (; next_odd_ < plain_.odd_face.size() && plain_.odd_face[next_odd_].face == faces_.face_count(); ++next_odd_) {
+      const auto& odd = plain_.odd_face[next_odd_];
+      faces_.add_polygon(std::span(plain_.odd_corner).subspan(odd.begin, odd.end - odd.begin));
+    }
   }
 
   om::VertexHandle add_vertex(const om::Vec3f&) override { return add_vertex(); }
@@ -35,7 +38,7 @@ class SoupImporter final : public om::IO::BaseImporter {
   }
   om::FaceHandle add_face(const VHandles& vertices) override {
     if (faces_.face_count() % 4096 == 0) work_.check();
-    add_short_faces();
+    add_odd_faces();
     corner_.clear();
     for (const om::VertexHandle v : vertices) corner_.push_back(v.idx());
     faces_.add_polygon(corner_);
@@ -87,7 +90,7 @@ class SoupImporter final : public om::IO::BaseImporter {
   const PlainText& plain_;
   FaceCollector& faces_;
   std::uint64_t vertices_ = 0;
-  std::size_t next_short_ = 0;
+  std::size_t next_odd_ = 0;
   std::vector<std::int64_t> corner_;
 };
 
@@ -121,7 +124,7 @@ Soup read_with_openmesh(const Work& work, const std::filesystem::path& path, Pla
     om::IO::Options options;
     done = om::IO::IOManager().read(text, extension, importer, options);
   }
-  importer.add_short_faces();
+  importer.add_odd_faces();
   if (!done || importer.vertices_seen() != plain.x.size() || faces.face_count() != plain.face_count)
     throw Error(ErrorCode::internal, path.string() + ": the text holds " + std::to_string(plain.x.size()) +
                                          " vertices and " + std::to_string(plain.face_count) +
