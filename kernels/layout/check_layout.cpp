@@ -140,7 +140,7 @@ bool is_disc(const LayoutGraph& graph, Index patch, std::int64_t euler, Real hol
     if (outside && length < hole_length) ++holes;
   }
   const std::int64_t n = static_cast<std::int64_t>(loops.size());
-  holes = std::min(holes, n - 1);  // a disc keeps its one border, however short
+  holes = std::min(holes, std::max(n, std::int64_t{1}) - 1);  // a disc keeps its one border, however short
   std::sort(nodes.begin(), nodes.end());
   const bool pinched = std::adjacent_find(nodes.begin(), nodes.end()) != nodes.end();
   return n - holes == 1 && euler + holes == 1 && !pinched;
