@@ -54,8 +54,8 @@ Swatch swatch(float lightness, float chroma, float degrees) {
 std::vector<Swatch> swatches() {
   std::vector<Swatch> set;
   for (int i = 0; i < 12; ++i) {
-    set.push_back(swatch(0.845f, 0.090f, 30.0f * static_cast<float>(i) + 20));
-    set.push_back(swatch(0.715f, 0.105f, 30.0f * static_cast<float>(i) + 35));
+    set.push_back(swatch(0.865f, 0.085f, 30.0f * static_cast<float>(i) + 20));
+    set.push_back(swatch(0.750f, 0.105f, 30.0f * static_cast<float>(i) + 35));
   }
   return set;
 }

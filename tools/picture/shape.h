@@ -8,7 +8,7 @@
 
 namespace intarsia::tools {
 
-inline constexpr Rgb kClay = {205, 207, 212};  // faces without a colour of their own
+inline constexpr Rgb kClay = {212, 212, 214};  // faces without a colour of their own
 
 // Triangles to draw. Needs no connectivity; degenerate faces are skipped, open and badly oriented surfaces are drawn
 // from both sides.

@@ -20,9 +20,9 @@ constexpr std::array<LegendItem, 6> kLegend = {{{CurveKind::ridge, "ridge"},
                                                 {CurveKind::extension, "extension"},
                                                 {CurveKind::subdivision, "subdivision"}}};
 
-const TextStyle kTitle = {12.5f, 0.155f, {28, 30, 36}};
-const TextStyle kCaption = {10.0f, 0.125f, {112, 116, 126}};
-constexpr int kGap = 12, kTitleBaseline = 24, kCaptionBaseline = 43;  // pixels; baselines are below the panel
+const TextStyle kTitle = {17.0f, 0.145f, {28, 30, 36}};
+const TextStyle kCaption = {13.0f, 0.12f, {98, 102, 112}};
+constexpr int kGap = 14, kTitleBaseline = 30, kCaptionBaseline = 54;  // pixels; baselines are below the panel
 
 void draw_centred(Image& image, float centre, float baseline, const std::string& text, TextStyle style, float room) {
   const float width = text_width(text, style);
@@ -44,14 +44,14 @@ std::vector<LegendItem> kinds_shown(const Strip& strip) {
 }
 
 void draw_legend(Image& image, const std::vector<LegendItem>& items, float baseline) {
-  constexpr float kDash = 26, kSpace = 8, kBetween = 30;
+  constexpr float kDash = 34, kSpace = 10, kBetween = 40;
   float width = -kBetween;
   for (const LegendItem& item : items) width += kDash + kSpace + text_width(item.name, kCaption) + kBetween;
   float x = 0.5f * (static_cast<float>(image.width) - width);
   for (const LegendItem& item : items) {
     const LineStyle style = style_of(item.kind);
     const float y = baseline - 0.35f * kCaption.size;
-    draw_stroke(image, x, y, x + kDash, y, style.width + 0.6f, style.colour);
+    draw_stroke(image, x, y, x + kDash, y, style.width + 1.2f, style.colour);
     x += kDash + kSpace;
     draw_text(image, x, baseline, item.name, kCaption);
     x += text_width(item.name, kCaption) + kBetween;
@@ -73,9 +73,9 @@ Image draw_strip(const Work& work, const Strip& strip) {
   const int per_row = o.per_row > 0 ? std::min(o.per_row, count) : count, rows = (count + per_row - 1) / per_row;
   const bool captions =
       std::any_of(strip.panel.begin(), strip.panel.end(), [](const Panel& p) { return !p.caption.empty(); });
-  const int text = (captions ? kCaptionBaseline : kTitleBaseline) + 12;
+  const int text = (captions ? kCaptionBaseline : kTitleBaseline) + 14;
   const std::vector<LegendItem> legend = o.legend ? kinds_shown(strip) : std::vector<LegendItem>{};
-  const int below = legend.empty() ? 0 : 30;
+  const int below = legend.empty() ? 0 : 36;
   Image image(per_row * camera.width + (per_row + 1) * kGap, rows * (camera.height + text) + kGap + below);
 
   Scene scene;
@@ -84,10 +84,10 @@ Image draw_strip(const Work& work, const Strip& strip) {
     const Panel& panel = strip.panel[static_cast<std::size_t>(i)];
     if (!prepared || !prepared->same_geometry(panel.shape) || prepared->smooth != panel.shape.smooth ||
         prepared->vertex_normal.x.data() != panel.shape.vertex_normal.x.data())
-      prepare_scene(work, panel.shape, camera, o.samples, scene);
+      prepare_scene(work, panel.shape, camera, o.samples, o.shade, scene);
     prepared = &panel.shape;
     const int left = kGap + (i % per_row) * (camera.width + kGap), top = kGap + (i / per_row) * (camera.height + text);
-    shade(work, panel.shape, panel.lines, o.shade, scene, image, left, top);
+    shade(work, panel.shape, panel.lines, scene, image, left, top);
     const float centre = static_cast<float>(left) + 0.5f * static_cast<float>(camera.width);
     const auto bottom = static_cast<float>(top + camera.height), room = static_cast<float>(camera.width + kGap - 4);
     draw_centred(image, centre, bottom + kTitleBaseline, panel.title, kTitle, room);
