@@ -1,0 +1,127 @@
+#include "tools/make/catalogue.h"
+
+#include <cmath>
+
+#include "tools/make/fields.h"
+
+namespace intarsia::tools {
+
+namespace {
+
+constexpr Real kPi = 3.141592653589793;
+
+std::vector<ShapeInfo> list_shapes() {
+  return {
+      {"rounded-box",
+       "box with rounded edges and corners",
+       {{"half-x", "half size along x, fillet included", 1, 1e-3, 1e3},
+        {"half-y", "half size along y", 1, 1e-3, 1e3},
+        {"half-z", "half size along z", 1, 1e-3, 1e3},
+        {"fillet", "radius of edges and corners, at most the smallest half size", 0.25, 1e-5, 1e3}},
+       2,
+       0,
+       true},
+      {"torus",
+       "ring about the z axis",
+       {{"ring", "radius of the centre circle", 2, 1e-3, 1e3},
+        {"tube", "radius of the tube, below that of the centre circle", 1, 1e-3, 1e3}},
+       0},
+      {"ellipsoid",
+       "ellipsoid along the axes",
+       {{"a", "semi-axis along x", 3, 1e-3, 1e3},
+        {"b", "semi-axis along y", 2, 1e-3, 1e3},
+        {"c", "semi-axis along z", 1, 1e-3, 1e3}},
+       2,
+       0,
+       true},
+      {"sphere", "sphere", {{"radius", "radius", 1, 1e-3, 1e3}}},
+      {"plane",
+       "flat rectangle, facing z",
+       {{"size-x", "side along x", 2, 1e-3, 1e3}, {"size-y", "side along y", 2, 1e-3, 1e3}},
+       1,
+       1},
+      {"cube", "cube with sharp edges", {{"half", "half of the side", 1, 1e-3, 1e3}}, 2, 0, true},
+      {"cylinder",
+       "open tube about the y axis, facing outward",
+       {{"radius", "radius", 1, 1e-3, 1e3}, {"height", "length along y", 3, 1e-3, 1e3}},
+       0,
+       2},
+      {"half-pipe",
+       "open half-pipe along y with rounded lips and flat decks, facing up",
+       {{"radius", "radius of the pipe", 1, 1e-3, 1e3},
+        {"lip", "radius of the rounded edge between pipe and deck", 0.15, 1e-3, 1e3},
+        {"deck", "width of each deck", 0.6, 1e-3, 1e3},
+        {"length", "length along y", 4, 1e-3, 1e3}},
+       1,
+       1,
+       true},
+  };
+}
+
+}  // namespace
+
+const std::vector<ShapeInfo>& shapes() {
+  static const std::vector<ShapeInfo> list = list_shapes();
+  return list;
+}
+
+const ShapeInfo& shape_info(const std::string& name) {
+  std::string names;
+  for (const ShapeInfo& s : shapes()) {
+    if (s.name == name) return s;
+    names += (names.empty() ? "" : ", ") + s.name;
+  }
+  throw Error(ErrorCode::bad_argument, "there is no shape \"" + name + "\"; there are " + names);
+}
+
+Real parameter(const MakeOptions& options, const char* name) {
+  if (const auto it = options.parameters.find(name); it != options.parameters.end()) return it->second;
+  for (const ShapeParameter& p : shape_info(options.shape).parameters)
+    if (p.name == name) return p.value;
+  throw Error(ErrorCode::internal, "shape " + options.shape + " has no parameter " + name);
+}
+
+Shape build_shape(const MakeOptions& options) {
+  const auto get = [&](const char* name) { return parameter(options, name); };
+  const std::string& name = options.shape;
+  const auto demand = [&](bool ok, const char* what) {
+    if (!ok) throw Error(ErrorCode::bad_argument, "shape " + name + ": " + what);
+  };
+  Shape shape;
+  if (name == "sphere") {
+    shape.field = sphere_field(get("radius"));
+  } else if (name == "ellipsoid") {
+    shape.field = ellipsoid_field(get("a"), get("b"), get("c"));
+  } else if (name == "torus") {
+    demand(get("tube") < get("ring"), "the tube must be thinner than the ring's radius");
+    shape.field = torus_field(get("ring"), get("tube"));
+  } else if (name == "rounded-box") {
+    const Vec3 half(get("half-x"), get("half-y"), get("half-z"));
+    demand(get("fillet") <= half.minCoeff(), "the fillet must not exceed the smallest half size");
+    shape.field = rounded_box_field(half, get("fillet"));
+  } else if (name == "cube") {
+    shape.cube_half = get("half");
+  } else if (name == "plane") {
+    Sheet sheet{Profile(-0.5 * get("size-x"), 0, 0), get("size-y"), false};
+    sheet.profile.line(get("size-x"));
+    shape.sheet = sheet;
+  } else if (name == "cylinder") {
+    Sheet sheet{Profile(get("radius"), 0, -0.5 * kPi), get("height"), true};
+    sheet.profile.arc(get("radius"), -2 * kPi);
+    shape.sheet = sheet;
+  } else if (name == "half-pipe") {
+    const Real radius = get("radius"), lip = get("lip"), deck = get("deck");
+    Sheet sheet{Profile(-radius - lip - deck, 0, 0), get("length"), false};
+    sheet.profile.line(deck);
+    sheet.profile.arc(lip, -0.5 * kPi);
+    sheet.profile.arc(radius, kPi);
+    sheet.profile.arc(lip, -0.5 * kPi);
+    sheet.profile.line(deck);
+    shape.sheet = sheet;
+  } else {
+    throw Error(ErrorCode::internal, "shape " + name + " is listed but cannot be built");
+  }
+  return shape;
+}
+
+}  // namespace intarsia::tools
