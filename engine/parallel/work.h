@@ -18,10 +18,14 @@ enum class Cost : std::size_t { light = 4096, medium = 512, heavy = 64, single =
 class Work {
  public:
   Work() = default;
-  Work(const std::atomic<bool>* cancel, std::atomic<std::uint64_t>* done, Order order)
-      : cancel_(cancel), done_(done), order_(order) {}
+  // stop: a second reason to stop, for example that another stage of the same run has failed.
+  Work(const std::atomic<bool>* cancel, std::atomic<std::uint64_t>* done, Order order,
+       const std::atomic<bool>* stop = nullptr)
+      : cancel_(cancel), stop_(stop), done_(done), order_(order) {}
 
-  bool cancelled() const { return cancel_ && cancel_->load(std::memory_order_relaxed); }
+  bool cancelled() const {
+    return (cancel_ && cancel_->load(std::memory_order_relaxed)) || (stop_ && stop_->load(std::memory_order_relaxed));
+  }
   // Throws ErrorCode::cancelled if the run was asked to stop. Serial loops poll this every few thousand items.
   void check() const {
     if (cancelled()) throw Error(ErrorCode::cancelled, "the run was cancelled");
@@ -33,6 +37,7 @@ class Work {
 
  private:
   const std::atomic<bool>* cancel_ = nullptr;
+  const std::atomic<bool>* stop_ = nullptr;
   std::atomic<std::uint64_t>* done_ = nullptr;
   Order order_ = Order::fixed;
 };

@@ -1,0 +1,22 @@
+#include "engine/run/context.h"
+
+#include <tbb/info.h>
+
+namespace intarsia {
+namespace {
+
+int effective_threads(int asked) {
+  if (asked < 0) throw Error(ErrorCode::bad_argument, "the number of threads must be 0 (all) or more");
+  return asked > 0 ? asked : tbb::info::default_concurrency();
+}
+
+}  // namespace
+
+RunContext::RunContext(const RunSettings& settings, std::atomic<bool>* cancel)
+    : settings_(settings),
+      threads_(effective_threads(settings.threads)),
+      cancel_(cancel ? cancel : &own_cancel_),
+      control_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_)),
+      arena_(threads_) {}
+
+}  // namespace intarsia
