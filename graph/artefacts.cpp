@@ -1,0 +1,82 @@
+#include "graph/artefacts.h"
+
+#include "engine/base/hash.h"
+#include "graph/fields_visitor.h"
+
+namespace intarsia::graph {
+namespace {
+
+struct Hasher {
+  Hash hash;
+  template <class T>
+  void array(const std::vector<T>& a) {
+    hash.add(a);
+  }
+  template <class T>
+  void scalar(const T& s) {
+    hash.add(s);
+  }
+  void points(const std::vector<SurfacePoint>& a) {
+    hash.add(std::uint64_t{a.size()});
+    for (const SurfacePoint& p : a) hash.add(p.kind), hash.add(p.element), hash.add(p.a), hash.add(p.b);
+  }
+};
+
+struct Sizer {
+  std::size_t bytes = 0;
+  template <class T>
+  void array(const std::vector<T>& a) {
+    bytes += a.size() * sizeof(T);
+  }
+  template <class T>
+  void scalar(const T&) {}
+  void points(const std::vector<SurfacePoint>& a) { bytes += a.size() * sizeof(SurfacePoint); }
+};
+
+template <class T>
+std::uint64_t hash_fields(const T& a) {
+  Hasher h;
+  walk(a, h);
+  return h.hash.value();
+}
+
+template <class T>
+std::size_t size_fields(const T& a) {
+  Sizer s;
+  walk(a, s);
+  return s.bytes;
+}
+
+}  // namespace
+
+std::uint64_t hash_of(const Surface& a) { return hash_fields(a); }
+std::uint64_t hash_of(const Scale& a) { return hash_fields(a); }
+std::uint64_t hash_of(const Sharp& a) { return hash_fields(a); }
+std::uint64_t hash_of(const Curvature& a) { return hash_fields(a); }
+std::uint64_t hash_of(const Ridges& a) { return hash_fields(a); }
+std::uint64_t hash_of(const Curves& a) { return hash_fields(a); }
+std::uint64_t hash_of(const Network& a) { return hash_fields(a); }
+std::uint64_t hash_of(const Patches& a) { return hash_fields(a); }
+std::uint64_t hash_of(const Layout& a) { return hash_fields(a); }
+
+std::size_t bytes_of(const Surface& a) { return size_fields(a); }
+std::size_t bytes_of(const Scale& a) { return size_fields(a); }
+std::size_t bytes_of(const Sharp& a) { return size_fields(a); }
+std::size_t bytes_of(const Curvature& a) { return size_fields(a); }
+std::size_t bytes_of(const Ridges& a) { return size_fields(a); }
+std::size_t bytes_of(const Curves& a) { return size_fields(a); }
+std::size_t bytes_of(const Network& a) { return size_fields(a); }
+std::size_t bytes_of(const Patches& a) { return size_fields(a); }
+std::size_t bytes_of(const Layout& a) { return size_fields(a); }
+
+std::size_t items_of(const Surface& a) { return a.mesh.face_count(); }
+std::size_t items_of(const Scale& a) { return a.fields.scale.size(); }
+std::size_t items_of(const Sharp& a) { return a.edges.curves.curve_count(); }
+std::size_t items_of(const Curvature& a) { return a.fields.vertex_count(); }
+std::size_t items_of(const Ridges& a) { return a.curves.curve_count(); }
+std::size_t items_of(const Curves& a) { return a.curves.curve_count(); }
+std::size_t items_of(const Network& a) { return a.patches; }
+std::size_t items_of(const Patches& a) { return a.labels.count; }
+std::size_t items_of(const Layout& a) { return a.labels.count; }
+
+}  // namespace intarsia::graph

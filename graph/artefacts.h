@@ -1,0 +1,122 @@
+// What flows between the stages. Each is plain data, immutable once published, and freed after its last reader.
+// Every artefact has hash_of (its bits), bytes_of (memory it holds) and items_of (what it counts).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/data/curve_network.h"
+#include "engine/data/feature_curves.h"
+#include "engine/data/fields.h"
+#include "engine/data/layout_graph.h"
+#include "engine/data/mesh.h"
+#include "engine/data/patch_labels.h"
+#include "kernels/layout/check_layout.h"
+#include "kernels/ridges/sharp_edges.h"
+#include "kernels/scale/compute_scale.h"
+#include "kernels/surface/canonical_order.h"
+#include "kernels/surface/normals.h"
+
+namespace intarsia::graph {
+
+// mesh -> surface: the input in canonical numbers and diagonal 1, with connectivity and normals.
+struct Surface {
+  Mesh mesh;
+  kernels::SurfaceOrder order;  // canonical -> input numbers
+  kernels::BoxTransform box;
+  Vec3Array face_normal;    // unit, 0 for faces without area
+  Vec3Array vertex_normal;  // Max 1999
+  Real area = 0;
+  Real mean_edge = 0;  // h
+};
+
+// surface -> scale
+struct Scale {
+  kernels::ScaleFields fields;
+};
+
+// surface -> sharp: creases of the mesh itself.
+struct Sharp {
+  kernels::SharpEdges edges;
+};
+
+// scale -> curvature
+struct Curvature {
+  CurvatureFields fields;
+};
+
+// curvature -> ridges: one channel's raw lines. Twice in a run: ridges and valleys.
+struct Ridges {
+  FeatureCurves curves;
+};
+
+// ridges -> curves: tidied, joined and ranked; everything that may still pass a threshold.
+struct Curves {
+  FeatureCurves curves;
+};
+
+// curves -> network: the features that stand out, embedded, and extended until they close.
+struct Network {
+  RefinedMesh refined;    // carries the closed network
+  CurveNetwork features;  // the chosen curves before extension, on the surface's mesh
+  std::vector<std::uint8_t> feature_concave;
+  Real min_saliency = 0;  // threshold that was used
+  Index patches = 0;      // after the tiny merge
+  Index ends = 0, met = 0, bridged = 0, dead = 0;
+  std::vector<std::string> warnings;
+};
+
+// network -> patches: final labels of the network's refined faces.
+struct Patches {
+  PatchLabels labels;
+  std::vector<std::uint8_t> on_network;
+  std::vector<CurveKind> edge_kind;
+  Index network_patches = 0, merged_patches = 0;
+  std::vector<std::string> warnings;
+};
+
+// patches -> layout: smoothed borders, embedded in the surface again, as a graph; checked.
+struct Layout {
+  RefinedMesh refined;
+  PatchLabels labels;  // per refined face
+  PatchTable table;
+  LayoutGraph graph;
+  kernels::LayoutChecks checks;
+  std::vector<Index> face_patch;  // per face of the surface: the patch with most of it
+  Index kept_chains = 0;          // arcs that were not smoothed because that would have broken the layout
+  std::vector<std::string> warnings;
+};
+
+std::uint64_t hash_of(const Surface& a);
+std::uint64_t hash_of(const Scale& a);
+std::uint64_t hash_of(const Sharp& a);
+std::uint64_t hash_of(const Curvature& a);
+std::uint64_t hash_of(const Ridges& a);
+std::uint64_t hash_of(const Curves& a);
+std::uint64_t hash_of(const Network& a);
+std::uint64_t hash_of(const Patches& a);
+std::uint64_t hash_of(const Layout& a);
+
+std::size_t bytes_of(const Surface& a);
+std::size_t bytes_of(const Scale& a);
+std::size_t bytes_of(const Sharp& a);
+std::size_t bytes_of(const Curvature& a);
+std::size_t bytes_of(const Ridges& a);
+std::size_t bytes_of(const Curves& a);
+std::size_t bytes_of(const Network& a);
+std::size_t bytes_of(const Patches& a);
+std::size_t bytes_of(const Layout& a);
+
+std::size_t items_of(const Surface& a);    // faces
+std::size_t items_of(const Scale& a);      // vertices
+std::size_t items_of(const Sharp& a);      // curves
+std::size_t items_of(const Curvature& a);  // vertices
+std::size_t items_of(const Ridges& a);     // curves
+std::size_t items_of(const Curves& a);     // curves
+std::size_t items_of(const Network& a);    // patches
+std::size_t items_of(const Patches& a);    // patches
+std::size_t items_of(const Layout& a);     // patches
+
+}  // namespace intarsia::graph

@@ -1,0 +1,56 @@
+// Every option of the method in one place: the kernels' own structs, gathered. Defaults live in the kernels.
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/curvature/compute_curvature.h"
+#include "kernels/curves/connect_features.h"
+#include "kernels/layout/check_layout.h"
+#include "kernels/layout/cross_edges.h"
+#include "kernels/layout/smooth_boundaries.h"
+#include "kernels/network/direction_field.h"
+#include "kernels/network/extension_cost.h"
+#include "kernels/network/snap_curves.h"
+#include "kernels/patches/subdivide.h"
+#include "kernels/ridges/sharp_edges.h"
+#include "kernels/ridges/trace_ridges.h"
+#include "kernels/scale/compute_scale.h"
+
+namespace intarsia::graph {
+
+enum class Mode : std::uint8_t { robust, paper };
+
+// How strong a feature must be to enter the network.
+struct ChoiceOptions {
+  Real min_saliency = 0.04;  // integral of the turn angle along a connected component, radians x diagonals
+  Real weakest = 0.01;       // lowest threshold a budget may go down to
+  Index most_patches = 60;   // automatic: a higher threshold where the network would enclose more than this
+  Real budget = 0.8;         // with a wanted number N: the network encloses at most this share of N
+  int steps = 7;             // bisection steps on the logarithm of the threshold
+};
+
+struct LayoutOptions {
+  Mode mode = Mode::robust;
+  std::uint64_t seed = 0;  // paper mode: random seeds of the subdivision
+  Index patches = 0;       // wanted number of patches; 0 = automatic
+  bool barrier = true;     // fits do not cross sharp edges
+  kernels::SharpOptions sharp;
+  kernels::ScaleOptions scale;
+  kernels::CurvatureOptions curvature;
+  kernels::RidgeOptions ridges;
+  kernels::CurveOptions curves;
+  ChoiceOptions choice;
+  kernels::SnapOptions snap;
+  kernels::DirectionFieldOptions direction;
+  kernels::ExtensionOptions extension;
+  kernels::SubdivideOptions subdivide;
+  kernels::SmoothOptions smooth;
+  kernels::CrossOptions cross;
+  kernels::CheckOptions check;
+};
+
+LayoutOptions robust_options();
+// The paper's letter where algorithms.md 18 brackets a value.
+LayoutOptions paper_options(std::uint64_t seed);
+
+}  // namespace intarsia::graph

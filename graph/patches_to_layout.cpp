@@ -1,0 +1,75 @@
+#include <algorithm>
+
+#include "engine/parallel/for_each.h"
+#include "graph/stages.h"
+#include "kernels/layout/match_labels.h"
+#include "kernels/layout/patch_of_faces.h"
+#include "kernels/layout/trace_boundaries.h"
+#include "kernels/network/embed_curves.h"
+#include "kernels/patches/flood_patches.h"
+#include "kernels/patches/measure_patches.h"
+
+namespace intarsia::graph {
+namespace {
+
+using namespace kernels;
+
+// The borders of the patches embedded in the surface anew, with the patch ids they had.
+struct Embedded {
+  RefinedMesh refined;
+  PatchLabels labels;
+  Index kept_chains = 0;
+};
+
+// Smoothed arcs that would break the layout go back to the chains they were traced from; if that does not help, all do.
+Embedded embed_smoothed(const Work& work, const Surface& surface, const Network& network, const PatchLabels& old,
+                        const LayoutGraph& graph, const SmoothedArcs& smoothed, const CrossOptions& options) {
+  std::vector<std::uint8_t> keep(graph.arc_count(), 0);
+  constexpr int kAttempts = 4;
+  for (int attempt = 0;; ++attempt) {
+    if (attempt == kAttempts) std::fill(keep.begin(), keep.end(), 1);
+    const CrossedArcs crossed = cross_edges(work, surface.mesh, network.refined, graph, smoothed, keep, options);
+    Embedding e = embed_curves(work, surface.mesh, crossed.network);
+    PatchLabels fresh = flood_patches(work, e.refined.mesh, e.refined.on_network);
+    const LabelMatch match = match_labels(work, surface.mesh, network.refined, old.patch_of_face, old.count, e.refined,
+                                          fresh.patch_of_face, fresh.count);
+    if (!match.ok && attempt < kAttempts) {
+      const std::vector<std::uint8_t> more = arcs_of_patches(graph, match.trouble);
+      for (std::size_t a = 0; a < keep.size(); ++a) keep[a] |= more[a];
+      continue;
+    }
+    if (match.ok)
+      for_each(work, Cost::light, fresh.patch_of_face.size(),
+               [&](std::size_t f) { fresh.patch_of_face[f] = match.old_of_new[fresh.patch_of_face[f]]; });
+    Embedded out;
+    out.refined = std::move(e.refined);
+    out.labels = std::move(fresh);
+    out.kept_chains = static_cast<Index>(std::count(crossed.as_traced.begin(), crossed.as_traced.end(), 1));
+    return out;
+  }
+}
+
+}  // namespace
+
+Layout patches_to_layout(const Work& work, const Surface& surface, const Curvature& curvature, const Network& network,
+                         const Patches& patches, const LayoutOptions& options) {
+  const PatchLabels& old = patches.labels;
+  const LayoutGraph rough = trace_boundaries(work, network.refined, old.patch_of_face, old.count);
+  const SmoothedArcs smoothed = smooth_boundaries(work, surface.mesh, network.refined, rough, old.patch_of_face,
+                                                  curvature.fields, options.smooth);
+  Embedded e = embed_smoothed(work, surface, network, old, rough, smoothed, options.cross);
+  Layout layout;
+  layout.refined = std::move(e.refined);
+  layout.labels = std::move(e.labels);
+  layout.kept_chains = e.kept_chains;
+  layout.graph = trace_boundaries(work, layout.refined, layout.labels.patch_of_face, layout.labels.count);
+  const PatchSurface measured =
+      make_patch_surface(work, layout.refined, surface.face_normal, surface.mean_edge, options.check.hole_length);
+  layout.table = measure_patches(work, measured, layout.labels);
+  layout.checks = check_layout(work, surface.mesh, layout.refined, layout.labels.patch_of_face, layout.labels.count,
+                               layout.graph, options.check);
+  layout.face_patch = patch_of_original_faces(work, surface.mesh, layout.refined, layout.labels.patch_of_face);
+  return layout;
+}
+
+}  // namespace intarsia::graph

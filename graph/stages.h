@@ -1,0 +1,32 @@
+// The stages of the method in order: the table of contents. Each is a pure function of its inputs and options;
+// layout_graph.cpp wires them.
+//
+//   read -> surface -> scale -> curvature -> ridges + valleys -> curves -> network -> patches -> layout -> write
+//                  \-> sharp -/          (side by side)
+#pragma once
+
+#include "engine/parallel/work.h"
+#include "graph/artefacts.h"
+#include "graph/options.h"
+
+namespace intarsia::graph {
+
+// Errors: rejected, in the user's numbering.
+Surface mesh_to_surface(const Work& work, const Soup& soup);
+Sharp surface_to_sharp(const Work& work, const Surface& surface, const LayoutOptions& options);
+Scale surface_to_scale(const Work& work, const Surface& surface, const LayoutOptions& options);
+Curvature scale_to_curvature(const Work& work, const Surface& surface, const Scale& scale, const Sharp& sharp,
+                             const LayoutOptions& options);
+// channel: ridge or valley.
+Ridges curvature_to_ridges(const Work& work, const Surface& surface, const Curvature& curvature, const Sharp& sharp,
+                           CurveKind channel, const LayoutOptions& options);
+Curves ridges_to_curves(const Work& work, const Surface& surface, const Ridges& ridges, const Ridges& valleys,
+                        const Sharp& sharp, const LayoutOptions& options);
+Network curves_to_network(const Work& work, const Surface& surface, const Curvature& curvature, const Curves& curves,
+                          const LayoutOptions& options);
+Patches network_to_patches(const Work& work, const Surface& surface, const Network& network,
+                           const LayoutOptions& options);
+Layout patches_to_layout(const Work& work, const Surface& surface, const Curvature& curvature, const Network& network,
+                         const Patches& patches, const LayoutOptions& options);
+
+}  // namespace intarsia::graph
