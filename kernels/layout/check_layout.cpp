@@ -6,11 +6,11 @@
 #include <cstdint>
 
 #include "engine/base/error.h"
-#include "engine/parallel/build_csr.h"
 #include "engine/parallel/reduce.h"
 #include "engine/parallel/union_find.h"
 #include "kernels/layout/label_sums.h"
 #include "kernels/layout/parent_weights.h"
+#include "kernels/layout/surface_path.h"
 
 namespace intarsia::kernels {
 namespace {
@@ -60,10 +60,14 @@ Tally loose_ends(const Work& work, const MeshView& mesh, const std::vector<std::
   return tally(work, mesh.vertex_count(), [&](Index v) { return degree[v] == 1; });
 }
 
-bool is_out_of_parent(const MeshView& original, const RefinedMesh& refined, Index f) {
+bool is_out_of_parent(const MeshView& original, const RefinedMesh& refined, const MeshView& mesh, Index f) {
+  if (is_uncut(original, refined, f)) {
+    for (Index v : mesh.face(f))
+      if (!(mesh.x[v] == original.x[v] && mesh.y[v] == original.y[v] && mesh.z[v] == original.z[v])) return true;
+    return false;
+  }
   const auto share = share_of_parent(original, refined, f);
   if (!share || !(*share >= -1e-12)) return true;
-  const MeshView mesh = refined.mesh.view();
   for (Index v : mesh.face(f)) {
     const SurfacePoint& p = refined.origin[v];
     const Real c = p.kind == PointKind::face ? 1 - p.a - p.b : 1 - p.a;
@@ -75,9 +79,7 @@ bool is_out_of_parent(const MeshView& original, const RefinedMesh& refined, Inde
 }
 
 Tally uncovered_parents(const Work& work, const MeshView& original, const RefinedMesh& refined, Real tolerance) {
-  const Csr children = build_csr(
-      work, original.face_count(), refined.parent.size(), [&](std::size_t f) { return refined.parent[f]; },
-      [](std::size_t f) { return static_cast<Index>(f); });
+  const Csr children = children_of_parents(work, original.face_count(), refined);
   return tally(work, original.face_count(), [&](Index parent) {
     Real covered = 0;
     for (Index f : children.row(parent)) covered += share_of_parent(original, refined, f).value_or(0);
@@ -185,7 +187,7 @@ LayoutChecks check_layout(const Work& work, MeshView original, const RefinedMesh
   out.area_error = std::abs(total_area(work, mesh) - area) / (area > 0 ? area : 1);
   add("area", "face", out.area_error <= options.area_tolerance ? Tally{} : Tally{1, kNone});
   add("inside_parent", "face",
-      tally(work, mesh.face_count(), [&](Index f) { return is_out_of_parent(original, refined, f); }));
+      tally(work, mesh.face_count(), [&](Index f) { return is_out_of_parent(original, refined, mesh, f); }));
   add("parents_covered", "parent", uncovered_parents(work, original, refined, options.area_tolerance));
   add("finite", "vertex", not_finite(work, refined));
 

@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/error.h"
-#include "engine/parallel/build_csr.h"
-#include "kernels/layout/label_sums.h"
+#include "engine/parallel/for_each.h"
 #include "kernels/layout/parent_weights.h"
 #include "kernels/layout/surface_path.h"
 
@@ -43,18 +42,12 @@ void shares_of(const MeshView& original, const RefinedMesh& refined, std::span<c
   out.resize(last + 1);
 }
 
-Csr children_of(const Work& work, const MeshView& original, const RefinedMesh& refined) {
-  return build_csr(
-      work, original.face_count(), refined.parent.size(), [&](std::size_t f) { return refined.parent[f]; },
-      [](std::size_t f) { return static_cast<Index>(f); });
-}
-
 // Sums of common area, ascending by (new, old).
 std::vector<Overlap> overlaps(const Work& work, const MeshView& original, const RefinedMesh& old_refined,
                               std::span<const Index> old_label, const RefinedMesh& new_refined,
                               std::span<const Index> new_label) {
-  const Csr old_children = children_of(work, original, old_refined),
-            new_children = children_of(work, original, new_refined);
+  const Csr old_children = children_of_parents(work, original.face_count(), old_refined);
+  const Csr new_children = children_of_parents(work, original.face_count(), new_refined);
   std::vector<std::vector<Overlap>> by_block(block_count(Cost::light, original.face_count()));
   for_each_block(work, Cost::light, original.face_count(), [&](std::size_t begin, std::size_t end, std::size_t b) {
     std::vector<Share> old_share, new_share;

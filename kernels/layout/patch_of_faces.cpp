@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/parallel/build_csr.h"
+#include "engine/parallel/for_each.h"
 #include "kernels/layout/parent_weights.h"
 
 namespace intarsia::kernels {
 
 std::vector<Index> patch_of_original_faces(const Work& work, MeshView original, const RefinedMesh& refined,
                                            std::span<const Index> label) {
-  const Csr children = build_csr(
-      work, original.face_count(), label.size(), [&](std::size_t f) { return refined.parent[f]; },
-      [](std::size_t f) { return static_cast<Index>(f); });
+  const Csr children = children_of_parents(work, original.face_count(), refined);
   std::vector<Index> patch(original.face_count(), kNone);
   for_each_block(work, Cost::light, original.face_count(), [&](std::size_t begin, std::size_t end, std::size_t) {
     std::vector<std::pair<Index, Real>> area;  // (patch, share of the parent)

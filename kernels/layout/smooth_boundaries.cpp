@@ -18,6 +18,10 @@ using Mat3 = Eigen::Matrix3d;
 
 constexpr Real kInside = 1e-3;  // smallest weight of a point that moved: keeps plane sections generic
 
+// Mean edges: a patch of a few faces leaves less room than this, and its border is better left alone, because curves
+// are cut off inside faces (cross_edges).
+constexpr Real kLeastRoom = 0.2;
+
 enum class Direction : std::uint8_t { t_min, t_max };
 
 // All points in one array: nodes first, then the inner points of the arcs.
@@ -172,7 +176,7 @@ void set_reach(const Work& work, const MeshView& original, const RefinedMesh& re
     for (Index i = 0; i < n; ++i) {
       const CurveKind k = edge_kind(edges[i]), l = edge_kind(edges[i + 1]);
       const Real local = is_feature(k) || is_feature(l) ? std::min(share, options.feature_reach) : share;
-      p.reach[first + i] = is_fixed(k) || is_fixed(l) ? 0 : std::min(local * h[i], limit);
+      p.reach[first + i] = is_fixed(k) || is_fixed(l) || limit < kLeastRoom * h[i] ? 0 : std::min(local * h[i], limit);
     }
   });
   std::vector<Real> node_limit(p.nodes, std::numeric_limits<Real>::infinity());
@@ -190,7 +194,7 @@ void set_reach(const Work& work, const MeshView& original, const RefinedMesh& re
   }
   for_each(work, Cost::light, p.nodes, [&](std::size_t i) {
     const Real h = std::min(2 * mean, mean_edge_at(original, refined.origin[graph.node[i]]));
-    p.reach[i] = held[i] ? 0 : std::min(options.free_reach * h, node_limit[i]);
+    p.reach[i] = held[i] || node_limit[i] < kLeastRoom * h ? 0 : std::min(options.free_reach * h, node_limit[i]);
   });
 }
 

@@ -128,9 +128,9 @@ std::array<Index, 2> shared_faces(const MeshView& mesh, const SurfacePoint& p, c
 
 FacePoint walk_towards(const MeshView& mesh, FacePoint p, const Vec3& target) {
   Index entered = kNone;
+  std::array<Real, 3> q;
+  if (!project(mesh, p.face, target, q)) return p;
   for (int step = 0; step < kMostWalkSteps; ++step) {
-    std::array<Real, 3> q;
-    if (!project(mesh, p.face, target, q)) return p;
     int exit = 3;
     Real share = 1;
     for (int i = 0; i < 3; ++i) {
@@ -150,8 +150,7 @@ FacePoint walk_towards(const MeshView& mesh, FacePoint p, const Vec3& target) {
     FacePoint next{g, {}};
     for (int i = 0; i < 3; ++i)
       if (i != exit) next.weight[mesh.corner_of(g, mesh.corner[3 * p.face + i])] = p.weight[i];
-    std::array<Real, 3> unused;
-    if (!project(mesh, g, target, unused)) return p;
+    if (!project(mesh, g, target, q)) return p;
     p = next;
     entered = e;
   }
