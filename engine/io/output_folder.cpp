@@ -32,12 +32,17 @@ void make_durable(const fs::path& path) {
   if (failed) throw_write_failed(path, "cannot be written", reason);
 }
 
-std::vector<fs::directory_entry> entries_of(const fs::path& folder) {
-  std::error_code error;
+std::vector<fs::directory_entry> list(const fs::path& folder, std::error_code& error) {
   std::vector<fs::directory_entry> entries;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) entries.push_back(*it);
-  if (error) throw_write_failed(folder, "cannot be listed: " + error.message(), 0);
   std::sort(entries.begin(), entries.end());
+  return entries;
+}
+
+std::vector<fs::directory_entry> entries_of(const fs::path& folder) {
+  std::error_code error;
+  auto entries = list(folder, error);
+  if (error) throw_write_failed(folder, "cannot be listed: " + error.message(), 0);
   return entries;
 }
 
@@ -69,8 +74,9 @@ fs::path free_name(const fs::path& folder, const fs::path& name) {
 OutputFolder::OutputFolder(const fs::path& target, std::vector<std::string> our_names)
     : our_names_(std::move(our_names)) {
   std::error_code error;
-  target_ = fs::weakly_canonical(fs::absolute(target), error);
-  if (error || target.empty()) throw_write_failed(target, "is no usable name for a folder", 0);
+  target_ = fs::absolute(target, error);
+  if (!error) target_ = fs::weakly_canonical(target_, error);
+  if (error) throw_write_failed(target, "is no usable name for a folder: " + error.message(), 0);
   if (!target_.has_filename()) target_ = target_.parent_path();  // written with a slash at the end
   parent_ = target_.parent_path();
   if (is_there(target_) && !is_folder(target_)) throw_write_failed(target, "is a file; name a folder", 0);
@@ -172,7 +178,7 @@ void OutputFolder::exchange() {
 
 void OutputFolder::remove_ours(const fs::path& folder) const {
   std::error_code ignored;
-  for (const auto& entry : entries_of(folder))
+  for (const auto& entry : list(folder, ignored))
     if (is_ours(entry)) fs::remove(entry.path(), ignored);
   fs::remove(folder, ignored);  // succeeds only if empty
 }
@@ -180,17 +186,19 @@ void OutputFolder::remove_ours(const fs::path& folder) const {
 // What killed runs have left beside the target. Without a target, an earlier result on its way out is put back; folders
 // that hold anything but our files wait until there is a target to take it.
 void OutputFolder::recover() {
+  std::error_code failed;  // what cannot be listed stays where it is
   std::vector<fs::path> abandoned;
   for (const Temporary kind : {Temporary::old_result, Temporary::new_result})
-    for (const auto& entry : entries_of(parent_))
+    for (const auto& entry : list(parent_, failed))
       if (is_folder(entry.path()) && is_abandoned(entry.path().filename().string(), kind, target_)) {
         if (kind == Temporary::old_result && !is_there(target_) && ::rename(entry.path().c_str(), target_.c_str()) == 0)
           continue;
         abandoned.push_back(entry.path());
       }
   for (const auto& folder : abandoned) {
-    const auto entries = entries_of(folder);
+    const auto entries = list(folder, failed);
     const auto ours = [&](const auto& entry) { return is_ours(entry); };
+    if (failed) continue;
     if (!is_there(target_) && !std::all_of(entries.begin(), entries.end(), ours)) continue;
     for (const auto& entry : entries)
       if (!ours(entry) && ::rename(entry.path().c_str(), free_name(target_, entry.path().filename()).c_str()) != 0)

@@ -28,7 +28,8 @@ void remove_abandoned(const fs::path& target) {
 
 AtomicFile::AtomicFile(const fs::path& path) {
   std::error_code error;
-  path_ = fs::weakly_canonical(fs::absolute(path), error);
+  path_ = fs::absolute(path, error);
+  if (!error) path_ = fs::weakly_canonical(path_, error);
   if (error) throw_write_failed(path, "is no usable name for a file: " + error.message(), 0);
   const fs::file_type type = fs::status(path_, error).type();
   if (type == fs::file_type::directory) throw_write_failed(path, "is a folder; name a file", 0);
