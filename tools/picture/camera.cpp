@@ -48,16 +48,16 @@ Camera unplaced(const Work& work, const Shape& shape, const View& view, Real per
   return camera;
 }
 
-void place(Camera& camera, const Box& picture, const FitOptions& o, int width) {
-  const Real w = width - 2 * o.margin, h = o.height - 2 * o.margin;
+void place(Camera& camera, const Box& picture, const FitOptions& o) {
+  const Real w = o.width - 2 * o.margin, h = o.height - 2 * o.margin;
   if (!(w >= 1 && h >= 1)) throw Error(ErrorCode::bad_argument, "the picture is smaller than its margins");
   const Vec3 size = picture.high - picture.low;
   const Real tiny = 1e-9 * camera.radius;
   camera.scale = std::min(w / std::max(size.x(), tiny), h / std::max(size.y(), tiny));
   camera.scale = std::min(camera.scale, std::max(w, h) / (1e-3 * camera.radius));  // a segment-like object seen end on
-  camera.x = 0.5 * width - camera.scale * 0.5 * (picture.low.x() + picture.high.x());
+  camera.x = 0.5 * o.width - camera.scale * 0.5 * (picture.low.x() + picture.high.x());
   camera.y = 0.5 * o.height - camera.scale * 0.5 * (picture.low.y() + picture.high.y());
-  camera.width = width, camera.height = o.height;
+  camera.width = o.width, camera.height = o.height;
 }
 
 }  // namespace
@@ -65,19 +65,23 @@ void place(Camera& camera, const Box& picture, const FitOptions& o, int width) {
 Camera fit_camera(const Work& work, const Shape& shape, const View& view, const FitOptions& options) {
   Box picture;
   Camera camera = unplaced(work, shape, view, options.perspective, picture);
-  place(camera, picture, options, options.width);
+  place(camera, picture, options);
   return camera;
 }
 
-Camera fit_camera_to_height(const Work& work, const Shape& shape, const View& view, const FitOptions& options,
-                            int least_width) {
+Camera fit_camera_tightly(const Work& work, const Shape& shape, const View& view, const FitOptions& options,
+                          int least_width) {
   Box picture;
   Camera camera = unplaced(work, shape, view, options.perspective, picture);
-  const Vec3 size = picture.high - picture.low;
-  const Real h = options.height - 2 * options.margin;
-  const Real wanted = h * size.x() / std::max(size.y(), 1e-9 * camera.radius) + 2 * options.margin;
-  const int width = static_cast<int>(std::clamp(wanted, Real(least_width), Real(options.width)) + 0.5);
-  place(camera, picture, options, width);
+  place(camera, picture, options);
+  const auto shrunk = [&](Real size, int largest) {
+    const Real wanted = std::ceil(camera.scale * size + 2 * options.margin);
+    return static_cast<int>(std::clamp(wanted, Real(std::min(least_width, largest)), Real(largest)));
+  };
+  FitOptions tight = options;
+  tight.width = shrunk(picture.high.x() - picture.low.x(), options.width);
+  tight.height = shrunk(picture.high.y() - picture.low.y(), options.height);
+  place(camera, picture, tight);
   return camera;
 }
 

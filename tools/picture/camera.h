@@ -49,8 +49,9 @@ struct FitOptions {
 // Errors: bad_argument if the picture is smaller than its margins or the view is degenerate.
 Camera fit_camera(const Work& work, const Shape& shape, const View& view, const FitOptions& options = {});
 
-// Like fit_camera, but the width of the picture follows the object, within [least_width, options.width].
-Camera fit_camera_to_height(const Work& work, const Shape& shape, const View& view, const FitOptions& options,
-                            int least_width);
+// Like fit_camera, but the picture shrinks around the object: options give its largest width and height.
+// Ensures: at least least_width wide and high, or as large as options where those are smaller.
+Camera fit_camera_tightly(const Work& work, const Shape& shape, const View& view, const FitOptions& options,
+                          int least_width);
 
 }  // namespace intarsia::tools

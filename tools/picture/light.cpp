@@ -15,7 +15,7 @@ Brightness lit(const Vec3& n, Real openness, bool back) {
   const Real sky = 0.5 + 0.5 * n.y(), graze = 1 - n.z(), shine = std::max(0.0, n.dot(kHalf));
   const Real s4 = shine * shine * shine * shine, s16 = s4 * s4 * s4 * s4;
   Brightness b;
-  b.diffuse = 0.86 * key * (0.35 + 0.65 * openness) + openness * (0.20 * fill + 0.17 * sky + 0.085);
+  b.diffuse = 0.82 * key * (0.35 + 0.65 * openness) + openness * (0.25 * fill + 0.18 * sky + 0.10);
   b.gloss = openness * (0.15 * graze * graze * graze * sky + (back ? 0 : 0.08 * s16 * s16 * s4));
   b.back = back;
   return b;
@@ -46,7 +46,7 @@ Vec3 Lamp::smooth_normal(const Index* v, const Vec3 p[3], const Vec3& face_norma
     const Vec3 m = given ? shape_.vertex_normal[v[i]] : normals_[v[i]];
     const Real size = m.norm();
     // Across a crease the normal of the vertex belongs to neither side.
-    sum += w[i] * (m.dot(face_normal) > 0.82 * size ? Vec3(m / size) : face_normal);
+    sum += w[i] * (m.dot(face_normal) > 0.92 * size ? Vec3(m / size) : face_normal);
   }
   const Real size = sum.norm();
   return size > 0 ? Vec3(sum / size) : face_normal;

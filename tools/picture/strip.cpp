@@ -66,8 +66,8 @@ Image draw_strip(const Work& work, const Strip& strip) {
   const Shape& first = strip.panel.front().shape;
   const View view = o.view ? *o.view : best_view(work, first);
   FitOptions fit;
-  fit.width = o.widest, fit.height = o.height;
-  const Camera camera = fit_camera_to_height(work, first, view, fit, std::min(o.widest, o.height / 3));
+  fit.width = o.width, fit.height = o.height;
+  const Camera camera = fit_camera_tightly(work, first, view, fit, 200);
 
   const int count = static_cast<int>(strip.panel.size());
   const int per_row = o.per_row > 0 ? std::min(o.per_row, count) : count, rows = (count + per_row - 1) / per_row;

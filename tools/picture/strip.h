@@ -29,12 +29,11 @@ struct Panel {
 };
 
 struct StripOptions {
-  int height = 560;          // pixels of a panel, without its text
-  int widest = 720;          // pixels; panels are as wide as the object needs, up to this
-  int samples = 3;           // per pixel and side
-  int per_row = 0;           // panels per row; 0 = all in one row
-  bool legend = true;        // names of the kinds of curves that appear in the panels, below
-  std::optional<View> view;  // none: best_view of the first panel
+  int width = 620, height = 560;  // pixels; largest size of a panel without its text; panels shrink around the object
+  int samples = 3;                // per pixel and side
+  int per_row = 0;                // panels per row; 0 = all in one row
+  bool legend = true;             // names of the kinds of curves that appear in the panels, below
+  std::optional<View> view;       // none: best_view of the first panel
   ShadeOptions shade;
 };
 
