@@ -12,6 +12,22 @@ constexpr Real kPi = 3.141592653589793;
 
 std::vector<ShapeInfo> list_shapes() {
   return {
+      {"part",
+       "cast machine part like a rocker arm: lever, two bosses with holes, pin, block, all edges rounded",
+       {{"fillet", "radius of the fillets where two bodies meet", 0.1, 0.03, 0.14},
+        {"edge", "radius of the rounded outer edges", 0.035, 0.01, 0.06}},
+       -2},
+      {"star",
+       "smooth star of eight petals, curved crisp ridges that fade out at the poles",
+       {{"petals", "number of ridges", 8, 3, 16},
+        {"depth", "depth of the valleys between them", 0.45, 0, 0.6},
+        {"crease", "width of a ridge's rounded crest", 0.08, 0.005, 1},
+        {"twist", "turn of the ridges from the equator to a pole, radians", 0.8, 0, 2}},
+       2},
+      {"head",
+       "head-like organic shape: eye sockets, nose, ears, curls",
+       {{"bumps", "height of the curls", 0.03, 0, 0.05}},
+       2},
       {"rounded-box",
        "box with rounded edges and corners",
        {{"half-x", "half size along x, fillet included", 1, 1e-3, 1e3},
@@ -88,7 +104,13 @@ Shape build_shape(const MakeOptions& options) {
     if (!ok) throw Error(ErrorCode::bad_argument, "shape " + name + ": " + what);
   };
   Shape shape;
-  if (name == "sphere") {
+  if (name == "part") {
+    shape.field = part_field(get("fillet"), get("edge"));
+  } else if (name == "star") {
+    shape.field = star_field(get("petals"), get("depth"), get("crease"), get("twist"));
+  } else if (name == "head") {
+    shape.field = head_field(get("bumps"));
+  } else if (name == "sphere") {
     shape.field = sphere_field(get("radius"));
   } else if (name == "ellipsoid") {
     shape.field = ellipsoid_field(get("a"), get("b"), get("c"));

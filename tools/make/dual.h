@@ -82,4 +82,12 @@ T length(const T& a, const T& b, const T& c) {
   return root(square(a) + square(b) + square(c));
 }
 
+// length(max(a, 0), max(b, 0)), cheaply: most points lie beside one of the two only.
+template <class T>
+T corner_length(const T& a, const T& b) {
+  if (value_of(a) <= 0) return positive(b);
+  if (value_of(b) <= 0) return a;
+  return length(a, b);
+}
+
 }  // namespace intarsia::tools

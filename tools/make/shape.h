@@ -35,7 +35,7 @@ const std::vector<ShapeInfo>& shapes();
 const ShapeInfo& shape_info(const std::string& name);
 
 struct MakeOptions {
-  std::string shape = "torus";
+  std::string shape = "part";
   std::uint64_t triangles = 100'000;  // wanted; met within 3 % (small meshes: within the steps of a grid)
   Real irregularity = 0;              // 0 even .. 1: random steps along the surface, in half distances to the nearest
                                       // neighbour; vertices stay on the surface
