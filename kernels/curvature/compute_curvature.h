@@ -16,7 +16,7 @@ struct CurvatureOptions {
   FitOptions fit;
   Real anisotropy = 0.05;  // paper silent; least (kmax - kmin) / max(|kmax|, |kmin|) for directions
   Real flat_turn = 1e-6;   // radians over the fit radius below which the surface is flat; 1e-4 if the input's
-                          // coordinates were single precision
+                           // coordinates were single precision
 
   static CurvatureOptions paper() {
     CurvatureOptions o;

@@ -98,7 +98,7 @@ VertexFit fit_disc(const MeshView& mesh, const SampleLevels& levels, std::span<c
     const Real squared = d.squaredNorm();
     if (squared >= limit * limit) continue;
     const Real weight = level.area[s] * ramp(std::sqrt(squared), radius, samples.cell);
-    add_point(frame, d, normal[s], weight, options.normal_gate, sums);
+    add_point(frame, d, normal[s], weight, options.disc_gate, sums);
   }
   VertexFit fit;
   fit.radius = sums.unit();

@@ -17,6 +17,7 @@ namespace intarsia::kernels {
 
 struct FitOptions {
   Real normal_gate = 0.1;      // a point takes part if its normal is within about 84 degrees of the centre's
+  Real disc_gate = 0.5;        // the same in a disc, 60 degrees: what lies beyond a sharp feature must not be fitted
   Real least_pivot = 1e-6;     // smallest over largest pivot of an acceptable fit
   int extra_rings = 2;         // rings added before giving up the cubic terms
   int refine_ring = 2;         // ring of the normal refinement where the curvature is fitted in a disc

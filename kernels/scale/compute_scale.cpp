@@ -23,7 +23,8 @@ struct Scratch {
   VotingScratch voting;
 };
 
-// Variation, rule and ring to fit, without looking at neighbours. flat[v] = 1 where the six rings see a plane.
+// Variation, rule and ring to fit, without looking at neighbours. flat[v] = 1 where the six rings see a plane and
+// nothing beside it: a vertex near a crease may be flat by the rule although its outer rings reach over the crease.
 void choose_rings(const Work& work, const MeshView& mesh, std::span<const FaceRecord> faces, const ScaleOptions& o,
                   ScaleFields& out, Codes& fit, Codes& flat) {
   auto pool = make_scratch_pool([&] { return Scratch(mesh); });
@@ -40,7 +41,7 @@ void choose_rings(const Work& work, const MeshView& mesh, std::span<const FaceRe
           choice.bend == Bend::between && o.closest_between ? choose_ring(read, closest).ring : choice.ring;
       out.scale[v] = static_cast<std::uint8_t>(choice.ring);
       fit[v] = static_cast<std::uint8_t>(std::max(ring, o.select.least_fit));
-      flat[v] = choice.bend == Bend::flat;
+      flat[v] = choice.bend == Bend::flat && read[kRings - 1] < o.select.bent;
       if (o.keep_variation)
         for (std::size_t k = 0; k < kRings; ++k) out.omega[k][v] = variation.omega[k];
     }
