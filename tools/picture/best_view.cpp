@@ -134,7 +134,7 @@ View best_view(const Work& work, const Shape& shape) {
     Frame frame;
     rasterise(work, coarse, camera, 1, frame);
     // Makers tend to turn the front of a model this way; it decides between views that are nearly as good.
-    score[i] = score_of(sample, frame) + 0.12 * candidate[i].toward.dot(front) - 0.10 * candidate[i].toward.dot(up);
+    score[i] = score_of(sample, frame) + 0.18 * candidate[i].toward.dot(front) - 0.20 * candidate[i].toward.dot(up);
   });
   std::size_t best = 0;
   for (std::size_t i = 1; i < score.size(); ++i)

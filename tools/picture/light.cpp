@@ -46,7 +46,7 @@ Vec3 Lamp::smooth_normal(const Index* v, const Vec3 p[3], const Vec3& face_norma
     const Vec3 m = given ? shape_.vertex_normal[v[i]] : normals_[v[i]];
     const Real size = m.norm();
     // Across a crease the normal of the vertex belongs to neither side.
-    sum += w[i] * (m.dot(face_normal) > 0.92 * size ? Vec3(m / size) : face_normal);
+    sum += w[i] * (m.dot(face_normal) > 0.87 * size ? Vec3(m / size) : face_normal);
   }
   const Real size = sum.norm();
   return size > 0 ? Vec3(sum / size) : face_normal;

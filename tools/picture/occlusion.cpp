@@ -77,7 +77,7 @@ void open_sky(const Work& work, const Shape& shape, const Frame& frame, float ra
           const float fade = 1 - square / (4 * reach * reach);  // things far in front do not darken
           if (rise > 0 && fade > 0) sum += rise * fade;
         }
-        raw[at(x, y)] = std::max(0.0f, 1 - 1.8f * sum / kTaps);
+        raw[at(x, y)] = std::max(0.0f, 1 - 2.8f * sum / kTaps);
       }
   });
 

@@ -134,7 +134,7 @@ void prepare_scene(const Work& work, const Shape& shape, const Camera& camera, i
   rasterise(work, shape, camera, samples, scene.frame);
   const ShadingNormals normals = shading_normals(work, shape);
   std::vector<float> openness;
-  open_sky(work, shape, scene.frame, 0.06f, openness);
+  open_sky(work, shape, scene.frame, 0.08f, openness);
   const Frame& frame = scene.frame;
   scene.light.resize(frame.key.size());
   const Lamp lamp(shape, normals, frame.camera);

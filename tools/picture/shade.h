@@ -9,8 +9,8 @@
 namespace intarsia::tools {
 
 struct ShadeOptions {
-  float outline = 0.45f;    // strength of the thin dark edge where the surface ends or folds away, 0 to 1
-  float occlusion = 0.75f;  // strength of the darkening in hollows, 0 to 1
+  float outline = 0.45f;   // strength of the thin dark edge where the surface ends or folds away, 0 to 1
+  float occlusion = 0.8f;  // strength of the darkening in hollows, 0 to 1
 };
 
 // Light that reaches a sample, in steps small against those of a display.
