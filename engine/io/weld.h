@@ -1,14 +1,15 @@
 // Joins corners that lie at exactly the same place, for files that give every triangle its own points.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
 #include "engine/base/hash.h"
 #include "engine/data/mesh.h"
+#include "engine/parallel/build_csr.h"
 #include "engine/parallel/for_each.h"
 #include "engine/parallel/scan.h"
-#include "engine/parallel/sort.h"
 
 namespace intarsia {
 
@@ -17,36 +18,31 @@ namespace intarsia {
 // Requires: corners < kNone; all coordinates finite.
 template <class Point>
 void weld(const Work& work, Index corners, const Point& point, Soup& soup) {
-  struct Key {
-    std::uint64_t hash;
-    Index corner;
-  };
-  std::vector<Key> key(corners);
+  const Index rows = corners / 4 + 1;
+  std::vector<Index> row(corners);  // equal positions share a row
   for_each(work, Cost::light, corners, [&](std::size_t c) {
     Hash hash;
     for (const Real value : point(static_cast<Index>(c))) hash.add(value);
-    key[c] = {hash.value(), static_cast<Index>(c)};
+    row[c] = static_cast<Index>(hash.value() % rows);
   });
-  sort_total(work, key.begin(), key.end(), [&](const Key& a, const Key& b) {
-    if (a.hash != b.hash) return a.hash < b.hash;
-    const auto p = point(a.corner), q = point(b.corner);
-    return p != q ? p < q : a.corner < b.corner;
-  });
-  // The first corner of each run of equal positions stands for all; runs may cross block borders, so each block looks
-  // back to the start of its first run.
-  const auto begins_run = [&](std::size_t i) {
-    return i == 0 || key[i].hash != key[i - 1].hash || point(key[i].corner) != point(key[i - 1].corner);
-  };
+  const Csr sharing = build_csr(
+      work, rows, corners, [&](std::size_t c) { return row[c]; }, [](std::size_t c) { return static_cast<Index>(c); });
+
+  // The first corner at a position stands for all of them.
   std::vector<Index>& corner = soup.corner;
   corner.resize(corners);
-  std::vector<Index> number(corners);
-  for_each_block(work, Cost::light, corners, [&](std::size_t begin, std::size_t end, std::size_t) {
-    std::size_t first = begin;
-    while (!begins_run(first)) --first;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (begins_run(i)) first = i;
-      corner[key[i].corner] = key[first].corner;
-      number[key[i].corner] = first == i ? 1 : 0;
+  std::vector<Index>& number = row;  // no longer needed as what it was
+  for_each_block(work, Cost::light, rows, [&](std::size_t begin, std::size_t end, std::size_t) {
+    std::vector<Index> first;  // of the different positions in the row
+    for (std::size_t r = begin; r < end; ++r) {
+      first.clear();
+      for (const Index c : sharing.row(static_cast<Index>(r))) {
+        const auto p = point(c);
+        const auto known = std::find_if(first.begin(), first.end(), [&](Index f) { return point(f) == p; });
+        number[c] = known == first.end() ? 1 : 0;
+        corner[c] = known == first.end() ? c : *known;
+        if (known == first.end()) first.push_back(c);
+      }
     }
   });
   const Index vertices = exclusive_scan<Index>(work, number);
