@@ -43,7 +43,7 @@ Real ProxyFit::total() const {
 }
 
 ProxyFit fit_proxies(const Work& work, const RegionGraph& g, std::vector<Index> seed, std::vector<Vec3> proxy,
-                     const FitOptions& options) {
+                     const ProxyOptions& options) {
   ProxyFit now, best;
   now.seed = std::move(seed), now.proxy = std::move(proxy);
   if (now.proxy.empty())

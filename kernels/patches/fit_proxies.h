@@ -9,7 +9,7 @@
 
 namespace intarsia::kernels {
 
-struct FitOptions {
+struct ProxyOptions {
   GrowOptions grow;
   int max_iterations = 20;
   Real tolerance = 1e-4;  // relative drop of the energy that still counts
@@ -31,7 +31,7 @@ struct ProxyFit {
 // Best of all iterations from the given seeds. proxy: first proxies, one per seed; empty = the seeds' own normals.
 // Requires: at least one seed, all different.
 ProxyFit fit_proxies(const Work& work, const RegionGraph& graph, std::vector<Index> seed, std::vector<Vec3> proxy,
-                     const FitOptions& options);
+                     const ProxyOptions& options);
 
 // Deterministic first seeds: the node farthest from the mean normal, then the one farthest from that; further ones
 // farthest from all before (ties: smaller id). At most `count`, fewer if the graph has fewer nodes.

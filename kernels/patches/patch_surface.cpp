@@ -5,9 +5,20 @@
 
 #include "engine/parallel/compact.h"
 #include "engine/parallel/reduce.h"
+#include "kernels/patches/flood_patches.h"
 
 namespace intarsia::kernels {
 namespace {
+
+// Area of the component that each boundary edge belongs to.
+std::vector<Real> component_areas(const Work& work, const PatchSurface& s, std::vector<Index>& component) {
+  const std::vector<Index> zero(s.mesh.face_count(), 0);
+  PatchLabels pieces = flood_equal(work, s.mesh, zero);
+  std::vector<Real> area(pieces.count, 0);
+  for (Index f = 0; f < s.mesh.face_count(); ++f) area[pieces.patch_of_face[f]] += s.area[f];
+  component.swap(pieces.patch_of_face);
+  return area;
+}
 
 // Boundary loops in order of their smallest edge. A loop turns inside the surface at vertices with several fans.
 void find_short_holes(const Work& work, Real hole_length, PatchSurface& s) {
@@ -19,7 +30,8 @@ void find_short_holes(const Work& work, Real hole_length, PatchSurface& s) {
   const auto position = [&](Index e) {
     return static_cast<std::size_t>(std::lower_bound(boundary.begin(), boundary.end(), e) - boundary.begin());
   };
-  std::vector<Index> loop;
+  std::vector<Index> loop, component;
+  std::vector<Real> component_area;
   for (std::size_t start = 0; start < boundary.size(); ++start) {
     if (seen[start]) continue;
     if (start % 4096 == 0) work.check();
@@ -37,6 +49,9 @@ void find_short_holes(const Work& work, Real hole_length, PatchSurface& s) {
       e = mesh.face_edge[next];
     }
     if (length >= hole_length) continue;
+    // The outer border of a small piece of surface is no hole: what a hole is cut into is much larger than the hole.
+    if (component.empty()) component_area = component_areas(work, s, component);
+    if (length * length > component_area[component[mesh.edge_f0[loop[0]]]]) continue;
     for (std::size_t i = 0; i < loop.size(); ++i) {
       s.hole_before.push_back({loop[i], loop[(i + loop.size() - 1) % loop.size()]});
       s.beside_hole[mesh.edge_f0[loop[i]]] = 1;

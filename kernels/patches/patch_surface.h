@@ -34,7 +34,8 @@ struct PatchSurface {
 };
 
 // Requires: unit (or zero) parent normals, one per original face; mean_edge > 0. Keeps views of `refined`.
-// hole_length: boundary loops of the surface shorter than this count as filled (section 17.1).
+// hole_length: boundary loops of the surface shorter than this count as filled (section 17.1), unless a loop is longer
+// than the square root of the area of its component: that is the outer border of a small piece.
 PatchSurface make_patch_surface(const Work& work, const RefinedMesh& refined, Vec3View parent_normal, Real mean_edge,
                                 Real hole_length = 0.05);
 

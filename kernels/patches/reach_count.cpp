@@ -90,7 +90,7 @@ class Halving {
     return false;
   }
 
-  // The faces of a patch that face f touches in one arc, so that f can change sides and both sides stay discs.
+  // Does f touch the faces of a label in one arc? Then it can leave label 0, or join label 1, and a disc stays a disc.
   bool meets_in_arc(Index f, Index p, Index label) const {
     int edges = 0, vertices = 0;
     for (int i = 0; i < 3; ++i) {
@@ -100,7 +100,8 @@ class Halving {
       if (std::any_of(star.begin(), star.end(), [&](Index x) { return x != f && regions_.is_in(x, p, label); }))
         ++vertices;
     }
-    return edges > 0 && vertices - edges == 1;
+    if (edges == 0 || vertices - edges != 1) return false;
+    return edges == 1 || label == 1 || stays_joined(s_.mesh, f, [&](Index g) { return regions_.is_in(g, p, label); });
   }
 
   // Takes faces off the rim of a disc one by one, nearest to the first one first, until half of the area is gone. Both

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "kernels/patches/measure_patches.h"
+
 namespace intarsia::kernels {
 namespace {
 
@@ -48,8 +50,12 @@ class Relaxation {
     }
     return c;
   }
-  // May f leave its region? A leaf that touches the rest in one more vertex is a pinch: better without.
-  bool may_leave(const Contact& c) const { return c.is_arc() || is_pinch(c); }
+  // May f leave its region? A leaf that touches the rest in one more vertex is a pinch: better without. A face that
+  // joins two neighbours may leave only if these stay joined around the corner between them.
+  bool may_leave(Index f, Index label, const Contact& c) const {
+    if (is_pinch(c)) return true;
+    return c.is_arc() && (c.edges == 1 || stays_joined(s_.mesh, f, [&](Index g) { return label_of(g) == label; }));
+  }
   static bool is_pinch(const Contact& c) { return c.edges == 1 && c.vertices == 3; }
 
   // Moves f to the best neighbouring region; `any` accepts a move that costs.
@@ -78,7 +84,7 @@ class Relaxation {
     }
     if (best == kNone) return false;
     const Contact stays = contact(f, from);
-    if (!may_leave(stays) || !contact(f, best).is_arc()) return false;
+    if (!may_leave(f, from, stays) || !contact(f, best).is_arc()) return false;
     const Real gain = 1e-9 * s_.mean_edge * s_.mean_edge;
     if (!any && !is_pinch(stays) && least > -gain) return false;
     regions_.label[f] = best;

@@ -9,26 +9,32 @@
 namespace intarsia::kernels {
 namespace {
 
-// Spread of every region. With the literal rule each face speaks, otherwise each node.
+// Spread of the regions in `only` (ascending; empty = all, others get 0). With the literal rule each face speaks,
+// otherwise each node.
 std::vector<Real> spreads(const PatchSurface& s, const Region& region, const RegionGraph& g,
-                          std::span<const Index> label, Index regions, const SplitOptions& options) {
+                          std::span<const Index> label, Index regions, std::span<const Index> only,
+                          const SplitOptions& options) {
   std::vector<std::vector<WeightedNormal>> normals(regions);
+  std::vector<std::uint8_t> asked(regions, only.empty() ? 1 : 0);
+  for (const Index r : only) asked[r] = 1;
   if (options.literal) {
     for (std::size_t i = 0; i < region.faces.size(); ++i) {
-      const Index f = region.faces[i];
-      normals[label[g.node_of_face[i]]].push_back({s.area[f] > 0 ? s.normal[f] : Vec3::Zero(), s.area[f]});
+      const Index f = region.faces[i], r = label[g.node_of_face[i]];
+      if (asked[r]) normals[r].push_back({s.area[f] > 0 ? s.normal[f] : Vec3::Zero(), s.area[f]});
     }
   } else {
     for (Index n = 0; n < g.nodes(); ++n) {
+      if (!asked[label[n]]) continue;
       const Vec3 sum = g.normal_sum[n];
       const Real length = sum.norm();
       normals[label[n]].push_back({length > 0 ? Vec3(sum / length) : Vec3::Zero(), g.area[n]});
     }
   }
-  std::vector<Real> spread(regions);
+  std::vector<Real> spread(regions, 0);
   for (Index r = 0; r < regions; ++r)
-    spread[r] =
-        options.literal ? max_pair_angle(normals[r], options.max_spread) : trimmed_spread(normals[r], options.trim);
+    if (asked[r])
+      spread[r] =
+          options.literal ? max_pair_angle(normals[r], options.max_spread) : trimmed_spread(normals[r], options.trim);
   return spread;
 }
 
@@ -56,7 +62,7 @@ std::vector<Index> first_seeds(const RegionGraph& g, Index count, Index patch, c
 
 // Adds seeds to the fit, one in each of the given regions, and continues from its proxies.
 ProxyFit with_more_seeds(const Work& work, const RegionGraph& g, const ProxyFit& fit, std::span<const Index> worst,
-                         const FitOptions& options) {
+                         const ProxyOptions& options) {
   std::vector<Index> seed = fit.seed;
   std::vector<Vec3> proxy = fit.proxy;
   for (const Index r : worst) {
@@ -80,27 +86,96 @@ Index write_regions(const Work& work, const PatchSurface& s, const Region& regio
   return fit.regions();
 }
 
+// The graph of some nodes alone. `rank` (per node of g) is scratch.
+RegionGraph induced(const RegionGraph& g, std::span<const Index> nodes, std::vector<Index>& rank) {
+  RegionGraph sub;
+  const Index count = static_cast<Index>(nodes.size());
+  sub.area.resize(count);
+  sub.normal_sum.resize(count), sub.mean_normal.resize(count), sub.centroid.resize(count);
+  std::fill(rank.begin(), rank.end(), kNone);
+  for (Index i = 0; i < count; ++i) {
+    rank[nodes[i]] = i;
+    sub.area[i] = g.area[nodes[i]];
+    sub.normal_sum.set(i, g.normal_sum[nodes[i]]);
+    sub.mean_normal.set(i, g.mean_normal[nodes[i]]);
+    sub.centroid.set(i, g.centroid[nodes[i]]);
+  }
+  sub.offset.assign(1, 0);
+  for (const Index n : nodes) {
+    for (const Index o : g.row(n))
+      if (rank[o] != kNone) sub.other.push_back(rank[o]);
+    sub.offset.push_back(static_cast<Index>(sub.other.size()));
+  }
+  return sub;
+}
+
+// One more seed in region r, which only r and its neighbours are fitted to again: with many regions a full round for
+// each seed would make the whole quadratic. Returns the regions that changed; empty if r cannot be divided.
+std::vector<Index> add_seed_locally(const Work& work, const RegionGraph& g, Index r, const ProxyOptions& options,
+                                    std::vector<Index>& rank, ProxyFit& fit) {
+  const Index seed = worst_node(g, fit, r);
+  if (seed == kNone) return {};
+  std::vector<Index> changed{r};
+  for (Index n = 0; n < g.nodes(); ++n)
+    if (fit.label[n] == r)
+      for (const Index o : g.row(n)) changed.push_back(fit.label[o]);
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  std::vector<Index> local(fit.regions(), kNone), nodes;
+  for (Index i = 0; i < changed.size(); ++i) local[changed[i]] = i;
+  for (Index n = 0; n < g.nodes(); ++n)
+    if (local[fit.label[n]] != kNone) nodes.push_back(n);
+  const RegionGraph sub = induced(g, nodes, rank);
+  std::vector<Index> seeds;
+  std::vector<Vec3> proxies;
+  for (const Index c : changed) seeds.push_back(rank[fit.seed[c]]), proxies.push_back(fit.proxy[c]);
+  seeds.push_back(rank[seed]), proxies.push_back(g.mean_normal[seed].normalized());
+  const ProxyFit part = fit_proxies(work, sub, std::move(seeds), std::move(proxies), options);
+  changed.push_back(fit.regions());
+  fit.seed.push_back(kNone), fit.proxy.push_back({}), fit.area.push_back(0), fit.energy.push_back(0);
+  for (Index i = 0; i < changed.size(); ++i) {
+    const Index c = changed[i];
+    fit.seed[c] = nodes[part.seed[i]], fit.proxy[c] = part.proxy[i];
+    fit.area[c] = part.area[i], fit.energy[c] = part.energy[i];
+  }
+  for (Index i = 0; i < nodes.size(); ++i) fit.label[nodes[i]] = changed[part.label[i]];
+  return changed;
+}
+
 Index split_region(const Work& work, const PatchSurface& s, const Region& region, const SplitOptions& options,
                    Regions& regions) {
-  const RegionGraph g =
-      make_region_graph(work, s, region, node_size_for(region.faces.size()), options.smooth_normals, regions);
+  const RegionGraph g = make_region_graph(work, s, region, node_size_for(region.faces.size()), options.smooth_normals,
+                                          regions);
   const std::vector<Index> whole(g.nodes(), 0);
-  if (g.nodes() < 2 || spreads(s, region, g, whole, 1, options)[0] <= options.max_spread) return 1;
+  if (g.nodes() < 2 || spreads(s, region, g, whole, 1, {}, options)[0] <= options.max_spread) return 1;
   ProxyFit fit = fit_proxies(work, g, first_seeds(g, 2, region.source, options), {}, options.fit);
-  FitOptions more = options.fit;
+  ProxyOptions more = options.fit;
   more.max_iterations = std::min(more.max_iterations, 6);
+  std::vector<Index> rank(g.nodes());
+  std::vector<Real> spread = spreads(s, region, g, fit.label, fit.regions(), {}, options);
   for (;;) {
-    const auto spread = spreads(s, region, g, fit.label, fit.regions(), options);
-    std::vector<Index> worst;
+    Index worst = kNone;
     for (Index r = 0; r < fit.regions(); ++r)
-      if (spread[r] > options.max_spread) worst.push_back(r);
-    if (worst.empty()) break;
-    std::stable_sort(worst.begin(), worst.end(), [&](Index a, Index b) { return spread[a] > spread[b]; });
-    const std::size_t batch = std::max<std::size_t>(1, fit.regions() >= 8 ? fit.regions() / 4 : 1);
-    if (worst.size() > batch) worst.resize(batch);
-    const Index before = fit.regions();
-    fit = with_more_seeds(work, g, fit, worst, more);
-    if (fit.regions() == before) break;
+      if (spread[r] > options.max_spread && fit.area[r] >= options.least_area * s.total_area &&
+          (worst == kNone || spread[r] > spread[worst]))
+        worst = r;
+    if (worst == kNone) break;
+    const Index count = fit.regions();
+    const bool globally = count < 8 || (count & (count - 1)) == 0;
+    std::vector<Index> changed;
+    if (globally) {
+      fit = with_more_seeds(work, g, fit, std::span(&worst, 1), more);
+    } else {
+      changed = add_seed_locally(work, g, worst, more, rank, fit);
+    }
+    if (fit.regions() == count) {
+      spread[worst] = 0;  // a single node: nothing to divide
+      continue;
+    }
+    const auto fresh = spreads(s, region, g, fit.label, fit.regions(), changed, options);
+    spread.resize(fit.regions());
+    for (Index r = 0; r < fit.regions(); ++r)
+      if (changed.empty() || std::binary_search(changed.begin(), changed.end(), r)) spread[r] = fresh[r];
   }
   return write_regions(work, s, region, g, fit, options, regions);
 }
@@ -109,7 +184,7 @@ Index split_region(const Work& work, const PatchSurface& s, const Region& region
 
 SplitOptions paper_split(std::uint64_t seed) {
   SplitOptions o;
-  o.trim = 0;
+  o.trim = 0, o.least_area = 0;
   o.literal = true;
   o.random_seeds = true;
   o.seed = seed;
