@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <tuple>
 
-#include "engine/parallel/build_csr.h"
 #include "engine/parallel/compact.h"
+#include "engine/parallel/scan.h"
 #include "kernels/surface/duplicate_rank.h"
 #include "kernels/surface/kd_order.h"
 
@@ -34,26 +34,46 @@ std::vector<Index> order_vertices(const Work& work, const Soup& soup, const Vec3
   return order;
 }
 
-std::array<Index, 3> rotated(const Soup& soup, const std::vector<Index>& number, Index f) {
-  std::array<Index, 3> v;
-  for (std::size_t i = 0; i < 3; ++i) v[i] = number[soup.corner[3 * std::size_t{f} + i]];
-  std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
-  return v;
-}
+struct OrderedFace {
+  Index second, third, source;
+  bool operator<(const OrderedFace& o) const {
+    return std::tie(second, third, source) < std::tie(o.second, o.third, o.source);
+  }
+};
 
-// mesh face -> soup triangle, sorted by the rotated corners
-std::vector<Index> order_faces(const Work& work, const Soup& soup, const std::vector<Index>& number, Index vertices) {
-  Csr by_first = build_csr(
-      work, vertices, soup.face_count(), [&](std::size_t f) { return rotated(soup, number, static_cast<Index>(f))[0]; },
-      [](std::size_t f) { return static_cast<Index>(f); });
-  for_each(work, Cost::light, vertices, [&](std::size_t v) {
-    std::sort(by_first.item.begin() + by_first.offset[v], by_first.item.begin() + by_first.offset[v + 1],
-              [&](Index a, Index b) {
-                const auto p = rotated(soup, number, a), q = rotated(soup, number, b);
-                return std::tie(p[1], p[2], a) < std::tie(q[1], q[2], b);
-              });
+// Fills mesh.corner and returns mesh face -> soup triangle: faces grouped by their smallest vertex, then sorted.
+std::vector<Index> order_faces(const Work& work, const Soup& soup, const std::vector<Index>& number, Index vertices,
+                               Mesh& mesh) {
+  const std::size_t faces = soup.face_count();
+  const auto rotated = [&](std::size_t f) {
+    std::array<Index, 3> v;
+    for (std::size_t i = 0; i < 3; ++i) v[i] = number[soup.corner[3 * f + i]];
+    std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
+    return v;
+  };
+  std::vector<Index> offset(std::size_t{vertices} + 1, 0);
+  for_each(work, Cost::light, faces, [&](std::size_t f) {
+    std::atomic_ref<Index>(offset[rotated(f)[0]]).fetch_add(1, std::memory_order_relaxed);
   });
-  return std::move(by_first.item);
+  exclusive_scan<Index>(work, offset);
+  std::vector<Index> cursor(offset);
+  std::vector<OrderedFace> ordered(faces);
+  for_each(work, Cost::light, faces, [&](std::size_t f) {
+    const auto v = rotated(f);
+    ordered[std::atomic_ref<Index>(cursor[v[0]]).fetch_add(1, std::memory_order_relaxed)] = {v[1], v[2],
+                                                                                             static_cast<Index>(f)};
+  });
+  std::vector<Index> source(faces);
+  mesh.corner.resize(3 * faces);
+  for_each(work, Cost::light, vertices, [&](std::size_t v) {
+    std::sort(ordered.begin() + offset[v], ordered.begin() + offset[v + 1]);
+    for (std::size_t f = offset[v]; f < offset[v + 1]; ++f) {
+      mesh.corner[3 * f] = static_cast<Index>(v);
+      mesh.corner[3 * f + 1] = ordered[f].second, mesh.corner[3 * f + 2] = ordered[f].third;
+      source[f] = ordered[f].source;
+    }
+  });
+  return source;
 }
 
 }  // namespace
@@ -83,12 +103,7 @@ SurfaceOrder canonical_order(const Work& work, const Soup& soup, const BoxTransf
     });
   }
   const std::vector<Index> number = inverse_order(work, out.vertex, soup.vertex_count());
-  out.face = order_faces(work, soup, number, static_cast<Index>(n));
-  mesh.corner.resize(soup.corner.size());
-  for_each(work, Cost::light, out.face.size(), [&](std::size_t f) {
-    const auto v = rotated(soup, number, out.face[f]);
-    std::copy(v.begin(), v.end(), mesh.corner.begin() + static_cast<std::ptrdiff_t>(3 * f));
-  });
+  out.face = order_faces(work, soup, number, static_cast<Index>(n), mesh);
   return out;
 }
 
