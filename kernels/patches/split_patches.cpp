@@ -9,41 +9,39 @@
 namespace intarsia::kernels {
 namespace {
 
-// Spread of the regions in `only` (ascending; empty = all, others get 0). With the literal rule each face speaks,
-// otherwise each node.
-std::vector<Real> spreads(const PatchSurface& s, const Region& region, const RegionGraph& g,
-                          std::span<const Index> label, Index regions, std::span<const Index> only,
-                          const SplitOptions& options) {
-  std::vector<std::vector<WeightedNormal>> normals(regions);
-  std::vector<std::uint8_t> asked(regions, only.empty() ? 1 : 0);
-  for (const Index r : only) asked[r] = 1;
-  if (options.literal) {
-    for (std::size_t i = 0; i < region.faces.size(); ++i) {
-      const Index f = region.faces[i], r = label[g.node_of_face[i]];
-      if (asked[r]) normals[r].push_back({s.area[f] > 0 ? s.normal[f] : Vec3::Zero(), s.area[f]});
-    }
-  } else {
-    for (Index n = 0; n < g.nodes(); ++n) {
-      if (!asked[label[n]]) continue;
-      const Vec3 sum = g.normal_sum[n];
-      const Real length = sum.norm();
-      normals[label[n]].push_back({length > 0 ? Vec3(sum / length) : Vec3::Zero(), g.area[n]});
-    }
-  }
-  std::vector<Real> spread(regions, 0);
-  for (Index r = 0; r < regions; ++r)
-    if (asked[r])
-      spread[r] =
-          options.literal ? max_pair_angle(normals[r], options.max_spread) : trimmed_spread(normals[r], options.trim);
-  return spread;
+using Members = std::vector<std::vector<Index>>;  // region -> its nodes, ascending
+
+Members members_of(std::span<const Index> label, Index regions) {
+  Members members(regions);
+  for (Index n = 0; n < label.size(); ++n) members[label[n]].push_back(n);
+  return members;
 }
 
-// The node of a region that fits its proxy worst. Ties: smaller id.
-Index worst_node(const RegionGraph& g, const ProxyFit& fit, Index r) {
+// Spread of the normals of some nodes. With the literal rule each face speaks, otherwise each node.
+Real spread_of(const PatchSurface& s, const Region& region, const RegionGraph& g, const Csr& faces_of_node,
+               std::span<const Index> nodes, const SplitOptions& options) {
+  std::vector<WeightedNormal> normals;
+  for (const Index n : nodes) {
+    if (options.literal) {
+      for (const Index i : faces_of_node.row(n)) {
+        const Index f = region.faces[i];
+        normals.push_back({s.area[f] > 0 ? s.normal[f] : Vec3::Zero(), s.area[f]});
+      }
+    } else {
+      const Vec3 sum = g.normal_sum[n];
+      const Real length = sum.norm();
+      normals.push_back({length > 0 ? Vec3(sum / length) : Vec3::Zero(), g.area[n]});
+    }
+  }
+  return options.literal ? max_pair_angle(normals, options.max_spread) : trimmed_spread(normals, options.trim);
+}
+
+// The node of a region that fits its proxy worst, not its seed. Ties: smaller id.
+Index worst_node(const RegionGraph& g, const ProxyFit& fit, Index r, std::span<const Index> nodes) {
   Index worst = kNone;
   Real most = 0;
-  for (Index n = 0; n < g.nodes(); ++n)
-    if (fit.label[n] == r && n != fit.seed[r] && g.area[n] > 0)
+  for (const Index n : nodes)
+    if (n != fit.seed[r] && g.area[n] > 0)
       if (const Real d = deviation(g, n, fit.proxy[r]); worst == kNone || d > most) most = d, worst = n;
   return worst;
 }
@@ -60,19 +58,17 @@ std::vector<Index> first_seeds(const RegionGraph& g, Index count, Index patch, c
   return seeds;
 }
 
-// Adds seeds to the fit, one in each of the given regions, and continues from its proxies.
-ProxyFit with_more_seeds(const Work& work, const RegionGraph& g, const ProxyFit& fit, std::span<const Index> worst,
-                         const ProxyOptions& options) {
+// Adds a seed in region r and fits all regions again, from the proxies they have. False if r cannot be divided.
+bool add_seed(const Work& work, const RegionGraph& g, Index r, const ProxyOptions& options, Members& members,
+              ProxyFit& fit) {
+  const Index n = worst_node(g, fit, r, members[r]);
+  if (n == kNone) return false;
   std::vector<Index> seed = fit.seed;
   std::vector<Vec3> proxy = fit.proxy;
-  for (const Index r : worst) {
-    const Index n = worst_node(g, fit, r);
-    if (n == kNone) continue;
-    seed.push_back(n);
-    proxy.push_back(g.mean_normal[n].normalized());
-  }
-  if (seed.size() == fit.seed.size()) return fit;
-  return fit_proxies(work, g, std::move(seed), std::move(proxy), options);
+  seed.push_back(n), proxy.push_back(g.mean_normal[n].normalized());
+  fit = fit_proxies(work, g, std::move(seed), std::move(proxy), options);
+  members = members_of(fit.label, fit.regions());
+  return true;
 }
 
 Index write_regions(const Work& work, const PatchSurface& s, const Region& region, const RegionGraph& g,
@@ -86,13 +82,12 @@ Index write_regions(const Work& work, const PatchSurface& s, const Region& regio
   return fit.regions();
 }
 
-// The graph of some nodes alone. `rank` (per node of g) is scratch.
+// The graph of some nodes alone. rank must hold kNone everywhere; afterwards it holds the place of each node.
 RegionGraph induced(const RegionGraph& g, std::span<const Index> nodes, std::vector<Index>& rank) {
   RegionGraph sub;
   const Index count = static_cast<Index>(nodes.size());
   sub.area.resize(count);
   sub.normal_sum.resize(count), sub.mean_normal.resize(count), sub.centroid.resize(count);
-  std::fill(rank.begin(), rank.end(), kNone);
   for (Index i = 0; i < count; ++i) {
     rank[nodes[i]] = i;
     sub.area[i] = g.area[nodes[i]];
@@ -112,33 +107,36 @@ RegionGraph induced(const RegionGraph& g, std::span<const Index> nodes, std::vec
 // One more seed in region r, which only r and its neighbours are fitted to again: with many regions a full round for
 // each seed would make the whole quadratic. Returns the regions that changed; empty if r cannot be divided.
 std::vector<Index> add_seed_locally(const Work& work, const RegionGraph& g, Index r, const ProxyOptions& options,
-                                    std::vector<Index>& rank, ProxyFit& fit) {
-  const Index seed = worst_node(g, fit, r);
+                                    std::vector<Index>& rank, Members& members, ProxyFit& fit) {
+  const Index seed = worst_node(g, fit, r, members[r]);
   if (seed == kNone) return {};
-  std::vector<Index> changed{r};
-  for (Index n = 0; n < g.nodes(); ++n)
-    if (fit.label[n] == r)
-      for (const Index o : g.row(n)) changed.push_back(fit.label[o]);
+  std::vector<Index> changed{r}, nodes;
+  for (const Index n : members[r])
+    for (const Index o : g.row(n)) changed.push_back(fit.label[o]);
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-  std::vector<Index> local(fit.regions(), kNone), nodes;
-  for (Index i = 0; i < changed.size(); ++i) local[changed[i]] = i;
-  for (Index n = 0; n < g.nodes(); ++n)
-    if (local[fit.label[n]] != kNone) nodes.push_back(n);
+  for (const Index c : changed) nodes.insert(nodes.end(), members[c].begin(), members[c].end());
+  std::sort(nodes.begin(), nodes.end());
   const RegionGraph sub = induced(g, nodes, rank);
   std::vector<Index> seeds;
   std::vector<Vec3> proxies;
   for (const Index c : changed) seeds.push_back(rank[fit.seed[c]]), proxies.push_back(fit.proxy[c]);
   seeds.push_back(rank[seed]), proxies.push_back(g.mean_normal[seed].normalized());
+  for (const Index n : nodes) rank[n] = kNone;
   const ProxyFit part = fit_proxies(work, sub, std::move(seeds), std::move(proxies), options);
   changed.push_back(fit.regions());
   fit.seed.push_back(kNone), fit.proxy.push_back({}), fit.area.push_back(0), fit.energy.push_back(0);
+  members.emplace_back();
   for (Index i = 0; i < changed.size(); ++i) {
     const Index c = changed[i];
     fit.seed[c] = nodes[part.seed[i]], fit.proxy[c] = part.proxy[i];
     fit.area[c] = part.area[i], fit.energy[c] = part.energy[i];
+    members[c].clear();
   }
-  for (Index i = 0; i < nodes.size(); ++i) fit.label[nodes[i]] = changed[part.label[i]];
+  for (Index i = 0; i < nodes.size(); ++i) {
+    fit.label[nodes[i]] = changed[part.label[i]];
+    members[changed[part.label[i]]].push_back(nodes[i]);
+  }
   return changed;
 }
 
@@ -146,36 +144,36 @@ Index split_region(const Work& work, const PatchSurface& s, const Region& region
                    Regions& regions) {
   const RegionGraph g = make_region_graph(work, s, region, node_size_for(region.faces.size()), options.smooth_normals,
                                           regions);
+  const Csr faces_of_node = faces_of_patches({g.node_of_face, g.nodes()});
   const std::vector<Index> whole(g.nodes(), 0);
-  if (g.nodes() < 2 || spreads(s, region, g, whole, 1, {}, options)[0] <= options.max_spread) return 1;
+  Members members = members_of(whole, 1);
+  const auto measure = [&](Index r) { return spread_of(s, region, g, faces_of_node, members[r], options); };
+  if (g.nodes() < 2 || measure(0) <= options.max_spread) return 1;
   ProxyFit fit = fit_proxies(work, g, first_seeds(g, 2, region.source, options), {}, options.fit);
+  members = members_of(fit.label, fit.regions());
   ProxyOptions more = options.fit;
   more.max_iterations = std::min(more.max_iterations, 6);
-  std::vector<Index> rank(g.nodes());
-  std::vector<Real> spread = spreads(s, region, g, fit.label, fit.regions(), {}, options);
+  std::vector<Index> rank(g.nodes(), kNone), changed;
+  std::vector<Real> spread;
   for (;;) {
+    const Index count = fit.regions();
+    spread.resize(count);
+    if (changed.empty())
+      for (Index r = 0; r < count; ++r) spread[r] = measure(r);
+    for (const Index r : changed) spread[r] = measure(r);
     Index worst = kNone;
-    for (Index r = 0; r < fit.regions(); ++r)
-      if (spread[r] > options.max_spread && fit.area[r] >= options.least_area * s.total_area &&
+    for (Index r = 0; r < count; ++r)
+      if (spread[r] > options.max_spread && fit.area[r] >= options.least_area * s.total_area && members[r].size() > 1 &&
           (worst == kNone || spread[r] > spread[worst]))
         worst = r;
     if (worst == kNone) break;
-    const Index count = fit.regions();
-    const bool globally = count < 8 || (count & (count - 1)) == 0;
-    std::vector<Index> changed;
-    if (globally) {
-      fit = with_more_seeds(work, g, fit, std::span(&worst, 1), more);
+    if (count < 8 || (count & (count - 1)) == 0) {
+      changed.clear();
+      if (!add_seed(work, g, worst, more, members, fit)) break;
     } else {
-      changed = add_seed_locally(work, g, worst, more, rank, fit);
+      changed = add_seed_locally(work, g, worst, more, rank, members, fit);
+      if (changed.empty()) break;
     }
-    if (fit.regions() == count) {
-      spread[worst] = 0;  // a single node: nothing to divide
-      continue;
-    }
-    const auto fresh = spreads(s, region, g, fit.label, fit.regions(), changed, options);
-    spread.resize(fit.regions());
-    for (Index r = 0; r < fit.regions(); ++r)
-      if (changed.empty() || std::binary_search(changed.begin(), changed.end(), r)) spread[r] = fresh[r];
   }
   return write_regions(work, s, region, g, fit, options, regions);
 }
@@ -214,17 +212,12 @@ Index approximate_region(const Work& work, const PatchSurface& s, const Region& 
   const RegionGraph g = make_region_graph(work, s, region, node_size, options.smooth_normals, regions);
   ProxyFit fit =
       fit_proxies(work, g, first_seeds(g, std::min<Index>(2, count), region.source, options), {}, options.fit);
+  Members members = members_of(fit.label, fit.regions());
   while (fit.regions() < std::min(count, g.nodes())) {
-    const Index worst = static_cast<Index>(std::max_element(fit.energy.begin(), fit.energy.end()) - fit.energy.begin());
-    const Index before = fit.regions();
-    fit = with_more_seeds(work, g, fit, std::span(&worst, 1), options.fit);
-    if (fit.regions() > before) continue;
-    // The worst region is a single node: take the next ones that can be divided.
-    std::vector<Index> any;
-    for (Index r = 0; r < before && any.empty(); ++r)
-      if (worst_node(g, fit, r) != kNone) any.push_back(r);
-    if (any.empty()) break;
-    fit = with_more_seeds(work, g, fit, any, options.fit);
+    Index worst = kNone;
+    for (Index r = 0; r < fit.regions(); ++r)
+      if (worst_node(g, fit, r, members[r]) != kNone && (worst == kNone || fit.energy[r] > fit.energy[worst])) worst = r;
+    if (worst == kNone || !add_seed(work, g, worst, options.fit, members, fit)) break;
   }
   return write_regions(work, s, region, g, fit, options, regions);
 }
