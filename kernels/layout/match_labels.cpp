@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/error.h"
-#include "engine/parallel/for_each.h"
+#include "engine/parallel/compact.h"
 #include "kernels/layout/parent_weights.h"
 #include "kernels/layout/surface_path.h"
 
@@ -122,6 +122,27 @@ std::vector<std::uint8_t> arcs_of_patches(const LayoutGraph& graph, std::span<co
     for (Index p : {graph.left[a], graph.right[a]})
       if (p != kNone && bad[p]) flag[a] = 1;
   return flag;
+}
+
+std::vector<Index> patches_out_of_place(const Work& work, const LayoutGraph& graph, MeshView new_refined,
+                                        std::span<const Index> patch_of_face, std::span<const Index> edge,
+                                        std::span<const Index> edge_curve) {
+  const auto sides = [&](std::size_t i) {
+    const Index f = new_refined.edge_f0[edge[i]], g = new_refined.edge_f1[edge[i]];
+    return std::minmax({patch_of_face[f], g == kNone ? kNone : patch_of_face[g]});
+  };
+  const std::vector<Index> wrong = compact(work, edge.size(), [&](std::size_t i) {
+    return sides(i) != std::minmax({graph.left[edge_curve[i]], graph.right[edge_curve[i]]});
+  });
+  std::vector<Index> patches;
+  for (Index i : wrong) {
+    const auto [low, high] = sides(i);
+    for (Index p : {low, high, graph.left[edge_curve[i]], graph.right[edge_curve[i]]})
+      if (p != kNone) patches.push_back(p);
+  }
+  std::sort(patches.begin(), patches.end());
+  patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
+  return patches;
 }
 
 }  // namespace intarsia::kernels

@@ -25,4 +25,12 @@ LabelMatch match_labels(const Work& work, MeshView original, const RefinedMesh& 
 // One flag per arc: 1 if a patch in trouble lies on either side. For cross_edges(keep_chain).
 std::vector<std::uint8_t> arcs_of_patches(const LayoutGraph& graph, std::span<const Index> patches);
 
+// The patches, ascending, that should meet or do meet along refined edges whose arc does not have exactly its own two
+// patches on its sides; empty if every arc is in its place. Even with a perfect match this can happen, where an arc was
+// pulled to the other side of a thin handle.
+// edge, edge_curve: the pairs of Embedding, curve = arc. patch_of_face: old patch ids on the new refinement.
+std::vector<Index> patches_out_of_place(const Work& work, const LayoutGraph& graph, MeshView new_refined,
+                                        std::span<const Index> patch_of_face, std::span<const Index> edge,
+                                        std::span<const Index> edge_curve);
+
 }  // namespace intarsia::kernels

@@ -17,7 +17,7 @@ struct SmoothOptions {
   Real damping = 0.5;             // share of each step that is taken
   Real free_reach = 1;            // mean edges: how far a point of a free arc may get from its start
   Real feature_reach = 0.3;       // mean edges: the same for ridges and valleys
-  Real width_reach = 0.3;         // share of the width (2 area / perimeter) of the narrower patch: same limit
+  Real width_reach = 0.45;        // share of the width (2 area / perimeter) of the narrower patch: same limit
 };
 
 // Positions on the original mesh. Inner points of arc a: offset[a] .. offset[a + 1] - 1, in the arc's order, one for

@@ -1,6 +1,7 @@
 // Labelled meshes for the layout kernels: a mesh as its own refinement, with the borders between labels as network.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "engine/data/fields.h"
@@ -132,16 +133,22 @@ inline Relayout relayout(const LayoutCase& c, const CurvatureFields& fields = {}
     const PatchLabels found = kernels::flood_patches(work, e.refined.mesh, e.refined.on_network);
     r.match =
         kernels::match_labels(work, c.mesh, c.refined, c.label, c.count, e.refined, found.patch_of_face, found.count);
+    std::vector<Index> trouble = r.match.trouble;
     if (r.match.ok) {
-      r.fresh.mesh = c.mesh, r.fresh.refined = std::move(e.refined), r.fresh.count = c.count;
+      r.fresh.label.clear();
       for (Index l : found.patch_of_face) r.fresh.label.push_back(r.match.old_of_new[l]);
+      trouble = kernels::patches_out_of_place(work, r.before, e.refined.mesh, r.fresh.label, e.edge, e.edge_curve);
+    }
+    if (r.match.ok && trouble.empty()) {
+      r.fresh.mesh = c.mesh, r.fresh.refined = std::move(e.refined), r.fresh.count = c.count;
       r.after = trace(r.fresh);
       r.checks = kernels::check_layout(work, c.mesh, r.fresh.refined, r.fresh.label, r.fresh.count, r.after);
       return r;
     }
-    const auto bad = kernels::arcs_of_patches(r.before, r.match.trouble);
+    const auto bad = kernels::arcs_of_patches(r.before, trouble);
     for (std::size_t a = 0; a < keep.size(); ++a) keep[a] = r.rounds >= 3 ? 1 : keep[a] | bad[a];
   }
+  r.match.ok = false;
   return r;
 }
 

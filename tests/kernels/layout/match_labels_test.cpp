@@ -1,5 +1,8 @@
 #include "kernels/layout/match_labels.h"
 
+#include <algorithm>
+#include <utility>
+
 #include <doctest/doctest.h>
 
 #include "kernels/layout/patch_of_faces.h"
@@ -51,6 +54,27 @@ TEST_CASE("a lost patch and a split patch are in trouble, and their arcs are nam
   for (Index f = 0; f < fresh.size(); ++f)
     if (fresh[f] == 3 && centroid(c.mesh, f).x() < 0.9) fresh[f] = 2;
   CHECK(match(c, fresh, 4).trouble == std::vector<Index>{3});
+}
+
+TEST_CASE("an arc between the wrong patches is noticed, with all patches concerned") {
+  const LayoutCase c = identity_case(icosphere(3), Nearest{6}, CurveKind::subdivision);
+  const Relayout r = relayout(c);
+  REQUIRE(r.match.ok);
+  const Embedding e = embed_curves(Work(), c.mesh, r.crossed.network);
+  const auto misplaced = [&](const LayoutGraph& g) {
+    return patches_out_of_place(Work(), g, e.refined.mesh, r.fresh.label, e.edge, e.edge_curve);
+  };
+  CHECK(misplaced(r.before).empty());
+  LayoutGraph g = r.before;
+  std::swap(g.left[2], g.right[2]);  // sides have no order here
+  CHECK(misplaced(g).empty());
+  const Index left = g.left[2], right = g.right[2];
+  Index third = 0;
+  while (third == left || third == right) ++third;
+  g.left[2] = third;
+  std::vector<Index> expected{left, right, third};
+  std::sort(expected.begin(), expected.end());
+  CHECK(misplaced(g) == expected);
 }
 
 TEST_CASE("an input face belongs to the patch with most of its area") {
