@@ -104,7 +104,7 @@ Real score_of(const Sample& s, const Frame& frame) {
     if (b > 0) entropy -= b / covered * std::log(b / covered);
   const Real pixels = static_cast<Real>(frame.columns) * frame.rows;
   return 1.0 * seen / std::max(s.total, Real(1e-300)) + 0.35 * entropy / std::log(Real(kBins)) +
-         0.5 * covered / pixels + 1.2 * std::min(creases / pixels, Real(0.25));
+         0.5 * covered / pixels + 1.8 * std::min(creases / pixels, Real(0.25));
 }
 
 }  // namespace
@@ -134,7 +134,7 @@ View best_view(const Work& work, const Shape& shape) {
     Frame frame;
     rasterise(work, coarse, camera, 1, frame);
     // Makers tend to turn the front of a model this way; it decides between views that are nearly as good.
-    score[i] = score_of(sample, frame) + 0.18 * candidate[i].toward.dot(front) - 0.20 * candidate[i].toward.dot(up);
+    score[i] = score_of(sample, frame) + 0.14 * candidate[i].toward.dot(front) - 0.14 * candidate[i].toward.dot(up);
   });
   std::size_t best = 0;
   for (std::size_t i = 1; i < score.size(); ++i)

@@ -41,8 +41,9 @@ Lines lines_of(const MeshView& refined, std::span<const std::uint8_t> on_network
 // The same lines in one style, for a picture where only the course matters.
 Lines restyled(Lines lines, const LineStyle& style);
 
-// line[sample] = 1 + the last polyline that covers the sample and is not hidden, 0 where there is none. A line lies at
-// most about one and a half of its widths behind the surface and is still seen: curves on the surface stay whole.
+// line[sample] = 1 + the last polyline that covers the sample and is not hidden, 0 where there is none. A line is still
+// seen when it lies up to its width and one pixel behind the surface (in pixels of depth): curves on the surface stay
+// whole where it rises beside them.
 void draw_lines(const Work& work, const Frame& frame, const Lines& lines, std::vector<std::uint32_t>& line);
 
 }  // namespace intarsia::tools
