@@ -11,7 +11,7 @@ struct Part {
 
   template <class T>
   T operator()(const T& x, const T& y, const T& z) const {
-    // Lever: two tapered bars, the long one with a pocket on either face, the short one with a rib on top.
+    // Lever: two tapered bars, the long one with a pocket on either face.
     const T pocket =
         extrude_round(tapered_bar(x, y, 0.2, 0.02, 0.30, 2.0, 0.4, 0.13), T(magnitude(z) - 0.34), 0.22, edge);
     T bar = extrude_round(tapered_bar(x, y, 0, 0, 0.52, 2.1, 0.42, 0.30), z, 0.21, edge);

@@ -1,64 +1,18 @@
 // Pieces to a PLY file, each at its own place.
+#include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <cstring>
 #include <string>
-#include <system_error>
-
-#include <fcntl.h>
-#include <unistd.h>
 
 #include "engine/parallel/for_each.h"
 #include "tools/make/shape.h"
+#include "tools/make/temporary_file.h"
 
 namespace intarsia::tools {
 
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the file is little-endian and written as memory lies");
-
-// A file under a temporary name; gone unless finished.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::filesystem::path& final_path) : final_(final_path) {
-    temporary_ = final_;
-    temporary_ += ".part-" + std::to_string(::getpid());
-    handle_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (handle_ < 0) fail("create");
-  }
-  ~TemporaryFile() {
-    if (handle_ >= 0) ::close(handle_);
-    if (!finished_) ::unlink(temporary_.c_str());
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  void write_at(std::uint64_t offset, const char* data, std::size_t size) const {
-    while (size > 0) {
-      const ssize_t n = ::pwrite(handle_, data, size, static_cast<off_t>(offset));
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) fail("write");
-      data += n, offset += static_cast<std::uint64_t>(n), size -= static_cast<std::size_t>(n);
-    }
-  }
-  void finish() {
-    const int handle = handle_;
-    handle_ = -1;
-    if (::close(handle) != 0) fail("write");
-    if (::rename(temporary_.c_str(), final_.c_str()) != 0) fail("rename");
-    finished_ = true;
-  }
-
- private:
-  [[noreturn]] void fail(const char* what) const {
-    throw Error(ErrorCode::write_failed, std::string("cannot ") + what + " " + temporary_.string() + ": " +
-                                             std::generic_category().message(errno));
-  }
-
-  std::filesystem::path final_, temporary_;
-  int handle_ = -1;
-  bool finished_ = false;
-};
 
 template <class T>
 void append(std::vector<char>& out, T value) {
