@@ -3,6 +3,20 @@
 #include "engine/base/hash.h"
 #include "graph/fields_visitor.h"
 
+namespace intarsia {
+
+std::uint64_t hash_of(const Soup& a) {
+  Hash h;
+  h.add(a.x), h.add(a.y), h.add(a.z), h.add(a.corner), h.add(a.source_face);
+  return h.value();
+}
+std::size_t bytes_of(const Soup& a) {
+  return a.x.size() * 3 * sizeof(Real) + (a.corner.size() + a.source_face.size()) * sizeof(Index);
+}
+std::size_t items_of(const Soup& a) { return a.face_count(); }
+
+}  // namespace intarsia
+
 namespace intarsia::graph {
 namespace {
 
@@ -47,7 +61,27 @@ std::size_t size_fields(const T& a) {
   return s.bytes;
 }
 
+std::vector<Warning> as_warnings(const char* code, const std::vector<std::string>& messages) {
+  std::vector<Warning> warnings;
+  for (const std::string& m : messages) warnings.push_back({code, m, 1, {}});
+  return warnings;
+}
+
 }  // namespace
+
+std::vector<Warning> warnings_of(const Network& a) { return as_warnings("network", a.warnings); }
+std::vector<Warning> warnings_of(const Patches& a) { return as_warnings("patches", a.warnings); }
+std::vector<Warning> warnings_of(const Layout& a) {
+  std::vector<Warning> warnings = as_warnings("layout", a.warnings);
+  for (const kernels::LayoutCheck& c : a.checks.checks)
+    if (!c.passed())
+      warnings.push_back({"check-" + c.name,
+                          "check " + c.name + " fails for " + std::to_string(c.count) + " elements, first " +
+                              c.element + " " + std::to_string(c.example),
+                          c.count,
+                          {}});
+  return warnings;
+}
 
 std::uint64_t hash_of(const Surface& a) { return hash_fields(a); }
 std::uint64_t hash_of(const Scale& a) { return hash_fields(a); }

@@ -13,11 +13,20 @@
 #include "engine/data/layout_graph.h"
 #include "engine/data/mesh.h"
 #include "engine/data/patch_labels.h"
+#include "engine/run/record.h"
 #include "kernels/layout/check_layout.h"
 #include "kernels/ridges/sharp_edges.h"
 #include "kernels/scale/compute_scale.h"
 #include "kernels/surface/canonical_order.h"
 #include "kernels/surface/normals.h"
+
+namespace intarsia {
+
+std::uint64_t hash_of(const Soup& a);
+std::size_t bytes_of(const Soup& a);
+std::size_t items_of(const Soup& a);  // faces
+
+}  // namespace intarsia
 
 namespace intarsia::graph {
 
@@ -62,8 +71,9 @@ struct Network {
   RefinedMesh refined;    // carries the closed network
   CurveNetwork features;  // the chosen curves before extension, on the surface's mesh
   std::vector<std::uint8_t> feature_concave;
-  Real min_saliency = 0;  // threshold that was used
-  Index patches = 0;      // after the tiny merge
+  std::vector<Index> feature_edge;  // refined edges of the chosen curves, ascending
+  Real min_saliency = 0;            // threshold that was used
+  Index patches = 0;                // after the tiny merge
   Index ends = 0, met = 0, bridged = 0, dead = 0;
   std::vector<std::string> warnings;
 };
@@ -85,9 +95,14 @@ struct Layout {
   LayoutGraph graph;
   kernels::LayoutChecks checks;
   std::vector<Index> face_patch;  // per face of the surface: the patch with most of it
+  CurveNetwork interior;          // chosen features that separate nothing, on the surface's mesh
   Index kept_chains = 0;          // arcs that were not smoothed because that would have broken the layout
   std::vector<std::string> warnings;
 };
+
+std::vector<Warning> warnings_of(const Network& a);
+std::vector<Warning> warnings_of(const Patches& a);
+std::vector<Warning> warnings_of(const Layout& a);
 
 std::uint64_t hash_of(const Surface& a);
 std::uint64_t hash_of(const Scale& a);

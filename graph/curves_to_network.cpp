@@ -83,6 +83,8 @@ class Choice {
     }
     n.features.point = candidates_.net.point;
     n.features.strength = candidates_.net.strength;
+    for (Index e = 0; e < level_.size(); ++e)
+      if (level_[e] >= threshold) n.feature_edge.push_back(e);
     n.refined = std::move(embedding_.refined);
     for (Index e : r.extension.edge)
       if (!n.refined.on_network[e] || level_[e] < threshold)

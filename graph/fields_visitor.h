@@ -101,7 +101,8 @@ void walk(const Curves& a, V& v) {
 
 template <class V>
 void walk(const Network& a, V& v) {
-  walk(a.refined, v), walk(a.features, v), v.array(a.feature_concave), v.scalar(a.min_saliency), v.scalar(a.patches);
+  walk(a.refined, v), walk(a.features, v), v.array(a.feature_concave), v.array(a.feature_edge),
+      v.scalar(a.min_saliency), v.scalar(a.patches);
 }
 
 template <class V>
@@ -112,6 +113,7 @@ void walk(const Patches& a, V& v) {
 template <class V>
 void walk(const Layout& a, V& v) {
   walk(a.refined, v), walk(a.labels, v), walk(a.graph, v), v.array(a.face_patch);
+  walk(a.interior, v);
 }
 
 }  // namespace intarsia::graph

@@ -8,6 +8,7 @@
 #include "kernels/network/embed_curves.h"
 #include "kernels/patches/flood_patches.h"
 #include "kernels/patches/measure_patches.h"
+#include "kernels/ridges/chain_segments.h"
 
 namespace intarsia::graph {
 namespace {
@@ -49,6 +50,30 @@ Embedded embed_smoothed(const Work& work, const Surface& surface, const Network&
   }
 }
 
+// Chosen features that ended up inside patches, as chains of the refined edges they became.
+CurveNetwork interior_curves(const Work& work, const Network& network, const PatchLabels& labels) {
+  const MeshView mesh = network.refined.mesh;
+  std::vector<Index> a, b;
+  for (Index e : network.feature_edge) {
+    if (mesh.is_boundary_edge(e)) continue;
+    if (labels.patch_of_face[mesh.edge_f0[e]] != labels.patch_of_face[mesh.edge_f1[e]]) continue;
+    a.push_back(mesh.edge_v0[e]), b.push_back(mesh.edge_v1[e]);
+  }
+  CurveNetwork interior;
+  const Csr chains = chain_segments(work, mesh.vertex_count(), a, b, {});
+  std::vector<Index> row;
+  for (Index c = 0; c < chains.rows(); ++c) {
+    row.clear();
+    for (Index v : chains.row(c)) {
+      row.push_back(static_cast<Index>(interior.point.size()));
+      interior.point.push_back(network.refined.origin[v]);
+    }
+    const Index e = mesh.edge_between(chains.row(c)[0], chains.row(c)[1]);
+    interior.add_curve(row, network.refined.edge_kind[e]);
+  }
+  return interior;
+}
+
 }  // namespace
 
 Layout patches_to_layout(const Work& work, const Surface& surface, const Curvature& curvature, const Network& network,
@@ -69,6 +94,7 @@ Layout patches_to_layout(const Work& work, const Surface& surface, const Curvatu
   layout.checks = check_layout(work, surface.mesh, layout.refined, layout.labels.patch_of_face, layout.labels.count,
                                layout.graph, options.check);
   layout.face_patch = patch_of_original_faces(work, surface.mesh, layout.refined, layout.labels.patch_of_face);
+  layout.interior = interior_curves(work, network, old);
   return layout;
 }
 

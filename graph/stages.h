@@ -1,8 +1,8 @@
 // The stages of the method in order: the table of contents. Each is a pure function of its inputs and options;
 // layout_graph.cpp wires them.
 //
-//   read -> surface -> scale -> curvature -> ridges + valleys -> curves -> network -> patches -> layout -> write
-//                  \-> sharp -/          (side by side)
+//   read -> surface -> sharp -> scale -> curvature -> ridges + valleys -> curves -> network -> patches -> layout ->
+//   write
 #pragma once
 
 #include "engine/parallel/work.h"
@@ -14,7 +14,7 @@ namespace intarsia::graph {
 // Errors: rejected, in the user's numbering.
 Surface mesh_to_surface(const Work& work, const Soup& soup);
 Sharp surface_to_sharp(const Work& work, const Surface& surface, const LayoutOptions& options);
-Scale surface_to_scale(const Work& work, const Surface& surface, const LayoutOptions& options);
+Scale surface_to_scale(const Work& work, const Surface& surface, const Sharp& sharp, const LayoutOptions& options);
 Curvature scale_to_curvature(const Work& work, const Surface& surface, const Scale& scale, const Sharp& sharp,
                              const LayoutOptions& options);
 // channel: ridge or valley.

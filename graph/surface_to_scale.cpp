@@ -6,7 +6,7 @@ Sharp surface_to_sharp(const Work& work, const Surface& surface, const LayoutOpt
   return {kernels::sharp_edges(work, surface.mesh, surface.mean_edge, options.sharp)};
 }
 
-Scale surface_to_scale(const Work& work, const Surface& surface, const LayoutOptions& options) {
+Scale surface_to_scale(const Work& work, const Surface& surface, const Sharp& /*sharp*/, const LayoutOptions& options) {
   return {kernels::compute_scale(work, surface.mesh, options.scale)};
 }
 

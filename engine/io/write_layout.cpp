@@ -1,0 +1,116 @@
+#include "engine/io/write_layout.h"
+
+#include "engine/io/write_ply.h"
+#include "engine/parallel/for_each.h"
+#include "engine/parallel/reduce.h"
+#include "engine/parallel/scan.h"
+
+namespace intarsia {
+namespace {
+
+bool is_single_precision(const Work& work, const Soup& soup) {
+  return reduce(
+      work, Cost::light, soup.vertex_count(), true,
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v)
+          for (const Real c : {soup.x[v], soup.y[v], soup.z[v]})
+            if (static_cast<Real>(static_cast<float>(c)) != c) return false;
+        return true;
+      },
+      [](bool a, bool b) { return a && b; });
+}
+
+template <class Element>
+void add_positions(Element& element, bool single, const Soup& soup) {
+  if (single)
+    element.template xyz<float>(soup.x, soup.y, soup.z);
+  else
+    element.template xyz<double>(soup.x, soup.y, soup.z);
+}
+
+}  // namespace
+
+void write_patches_ply(const Work& work, const std::filesystem::path& path, const LayoutView& layout) {
+  const Soup& soup = *layout.soup;
+  std::vector<Index> patch(soup.face_count(), 0);
+  for_each(work, Cost::light, layout.face_order.size(),
+           [&](std::size_t f) { patch[layout.face_order[f]] = layout.face_patch[f]; });
+  PlyFile ply;
+  ply.comment("intarsia patches: faces in the order of the input, int patch per face");
+  auto& vertex = ply.element("vertex", soup.vertex_count());
+  add_positions(vertex, is_single_precision(work, soup), soup);
+  auto& face = ply.element("face", soup.face_count());
+  face.triangles(soup.corner).column<std::int32_t>("patch", patch);
+  const char* channel[] = {"red", "green", "blue"};
+  for (int i = 0; i < 3; ++i)
+    face.column<std::uint8_t>(channel[i], [&, i](std::size_t f) { return layout.patch_colour[patch[f]][i]; });
+  if (!soup.source_face.empty()) face.column<std::int32_t>("source_face", soup.source_face);
+  write_ply(work, path, ply);
+}
+
+void write_layout_ply(const Work& work, const std::filesystem::path& path, const LayoutView& layout) {
+  const Soup& soup = *layout.soup;
+  const RefinedMesh& refined = *layout.refined;
+  const MeshView mesh = refined.mesh;
+  const Index originals = static_cast<Index>(layout.vertex_order.size());
+  const Index added = mesh.vertex_count() - originals, faces = mesh.face_count();
+
+  // Refined faces by their input triangle: counting sort, refined order inside a triangle.
+  std::vector<Index> start(std::size_t{soup.face_count()} + 1, 0);
+  for (Index f = 0; f < faces; ++f) ++start[layout.face_order[refined.parent[f]]];
+  exclusive_scan<Index>(work, start);
+  std::vector<Index> order(faces);
+  for (Index f = 0; f < faces; ++f) order[start[layout.face_order[refined.parent[f]]]++] = f;
+  std::vector<Index> corner(std::size_t{faces} * 3);
+  for_each(work, Cost::light, faces, [&](std::size_t i) {
+    for (int k = 0; k < 3; ++k) corner[3 * i + k] = layout_vertex(layout, mesh.corner[3 * order[i] + k]);
+  });
+
+  PlyFile ply;
+  ply.comment("intarsia layout: a refinement of the input whose edges carry all curves");
+  auto& vertex = ply.element("vertex", std::size_t{soup.vertex_count()} + added);
+  const auto coordinate = [&](const std::vector<Real>& given, int axis) {
+    return [&, axis, data = given.data(), n = soup.vertex_count()](std::size_t v) {
+      return v < n ? data[v] : layout_point(layout, originals + static_cast<Index>(v - n))[axis];
+    };
+  };
+  vertex.column<double>("x", coordinate(soup.x, 0)).column<double>("y", coordinate(soup.y, 1));
+  vertex.column<double>("z", coordinate(soup.z, 2));
+  ply.element("face", faces)
+      .triangles(corner)
+      .column<std::int32_t>("patch", [&](std::size_t i) { return layout.labels->patch_of_face[order[i]]; })
+      .column<std::int32_t>("parent", [&](std::size_t i) { return layout.face_order[refined.parent[order[i]]]; });
+  write_ply(work, path, ply);
+}
+
+void write_network_ply(const Work& work, const std::filesystem::path& path, const LayoutView& layout) {
+  const LayoutGraph& graph = *layout.graph;
+  std::vector<Index> number(layout.refined->mesh.vertex_count(), kNone), vertex;
+  std::vector<Index> v1, v2, curve;
+  std::vector<CurveKind> kind;
+  const auto named = [&](Index v) {
+    if (number[v] == kNone) number[v] = static_cast<Index>(vertex.size()), vertex.push_back(v);
+    return number[v];
+  };
+  for (Index a = 0; a < graph.arc_count(); ++a) {
+    const auto row = graph.arc.row(a);
+    for (std::size_t i = 0; i + 1 < row.size(); ++i) {
+      v1.push_back(named(row[i])), v2.push_back(named(row[i + 1]));
+      curve.push_back(a), kind.push_back(graph.kind[a]);
+    }
+  }
+  PlyFile ply;
+  ply.comment("intarsia network: kind 0 ridge, 1 valley, 2 sharp, 3 border, 4 extension, 5 subdivision");
+  auto& element = ply.element("vertex", vertex.size());
+  const char* axis[] = {"x", "y", "z"};
+  for (int i = 0; i < 3; ++i)
+    element.column<double>(axis[i], [&, i](std::size_t v) { return layout_point(layout, vertex[v])[i]; });
+  ply.element("edge", v1.size())
+      .column<std::int32_t>("vertex1", v1)
+      .column<std::int32_t>("vertex2", v2)
+      .column<std::int32_t>("curve", curve)
+      .column<std::int32_t>("kind", kind);
+  write_ply(work, path, ply);
+}
+
+}  // namespace intarsia

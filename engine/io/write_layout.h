@@ -1,0 +1,64 @@
+// The layout as files in the user's numbering: patches.ply, layout.ply, network.ply, network.json (docs/formats.md).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+#include "engine/data/curve_network.h"
+#include "engine/data/layout_graph.h"
+#include "engine/data/mesh.h"
+#include "engine/data/patch_labels.h"
+#include "engine/parallel/work.h"
+
+namespace intarsia {
+
+// Views of all that the files are made from. Canonical numbers are those of the mesh the method ran on.
+struct LayoutView {
+  const Soup* soup = nullptr;           // as read
+  std::span<const Index> vertex_order;  // canonical vertex -> soup vertex
+  std::span<const Index> face_order;    // canonical face -> soup triangle
+  Vec3 centre = Vec3::Zero();           // input position = centre + diagonal * normalised position
+  Real diagonal = 1;
+  const RefinedMesh* refined = nullptr;    // of the canonical mesh
+  const PatchLabels* labels = nullptr;     // of the refined faces
+  const LayoutGraph* graph = nullptr;      // on the refined mesh
+  const CurveNetwork* interior = nullptr;  // feature curves inside patches, on the canonical mesh
+  MeshView mesh;                           // the canonical mesh
+  std::span<const Index> face_patch;       // canonical face -> patch with most of it
+  std::span<const std::array<std::uint8_t, 3>> patch_colour;
+};
+
+// Errors of all: write_failed naming the file, numeric, cancelled.
+
+// The input's vertices and triangles in its order; faces with int patch, uchar red green blue, and int source_face if
+// polygons were split. Coordinates are double where float would round them.
+void write_patches_ply(const Work& work, const std::filesystem::path& path, const LayoutView& layout);
+
+// The refinement whose edges carry all curves: the input's vertices first, in its order, then the new ones; faces with
+// int patch and int parent (triangle of the input), ascending by parent.
+void write_layout_ply(const Work& work, const std::filesystem::path& path, const LayoutView& layout);
+
+// Vertices of the network and its edges with int vertex1 vertex2 curve kind; curve = arc of network.json.
+void write_network_ply(const Work& work, const std::filesystem::path& path, const LayoutView& layout);
+
+// Nodes, arcs, loops per patch, interior curves. Vertex ids are those of layout.ply.
+void write_network_json(const Work& work, const std::filesystem::path& path, const LayoutView& layout);
+
+// Number of a refined vertex in layout.ply.
+inline Index layout_vertex(const LayoutView& l, Index v) {
+  const Index originals = static_cast<Index>(l.vertex_order.size());
+  return v < originals ? l.vertex_order[v] : l.soup->vertex_count() + v - originals;
+}
+
+// Position of a refined vertex in the input's units: the input's own bits where it is an input vertex.
+inline Vec3 layout_point(const LayoutView& l, Index v) {
+  if (v < l.vertex_order.size()) {
+    const Index s = l.vertex_order[v];
+    return {l.soup->x[s], l.soup->y[s], l.soup->z[s]};
+  }
+  return l.centre + l.diagonal * l.refined->mesh.view().point(v);
+}
+
+}  // namespace intarsia

@@ -1,0 +1,91 @@
+#include "graph/layout_graph.h"
+
+#include <string>
+
+#include "engine/base/hash.h"
+#include "graph/visit_options.h"
+
+namespace intarsia::graph {
+namespace {
+
+std::uint64_t options_hash(const LayoutOptions& options) {
+  Hash hash;
+  hash.add(options.mode), hash.add(options.seed), hash.add(options.patches);
+  visit_options(options, [&](const char* name, const auto& value, const char*, auto, auto) {
+    hash.add(std::string_view(name));
+    hash.add(static_cast<Real>(value));
+  });
+  return hash.value();
+}
+
+}  // namespace
+
+void check_options(const LayoutOptions& options) {
+  visit_options(options, [](const char* name, const auto& value, const char* help, auto least, auto most) {
+    const Real v = static_cast<Real>(value);
+    if (!(v >= static_cast<Real>(least) && v <= static_cast<Real>(most)) && v != static_cast<Real>(kNone))
+      throw Error(ErrorCode::bad_argument, std::string("option ") + name + " (" + help + ") must lie in " +
+                                               std::to_string(least) + " .. " + std::to_string(most));
+  });
+}
+
+FeaturePorts add_feature_stages(Flow& flow, const Port<Soup>& soup, const LayoutOptions& options) {
+  const std::uint64_t hash = options_hash(options);
+  FeaturePorts p;
+  p.surface = add_stage(flow, Stage<Surface, Soup>{"surface", 1, hash, mesh_to_surface, {}, 1}, soup);
+  const auto sharp = [options](const Work& w, const Surface& s) { return surface_to_sharp(w, s, options); };
+  p.sharp = add_stage(flow, Stage<Sharp, Surface>{"ridges", 1, hash, sharp, "sharp", 0.1}, p.surface);
+  const auto scale = [options](const Work& w, const Surface& s, const Sharp& e) {
+    return surface_to_scale(w, s, e, options);
+  };
+  p.scale = add_stage(flow, Stage<Scale, Surface, Sharp>{"scale", 1, hash, scale, {}, 4}, p.surface, p.sharp);
+  const auto curvature = [options](const Work& w, const Surface& s, const Scale& k, const Sharp& e) {
+    return scale_to_curvature(w, s, k, e, options);
+  };
+  p.curvature = add_stage(flow, Stage<Curvature, Surface, Scale, Sharp>{"curvature", 1, hash, curvature, {}, 2},
+                          p.surface, p.scale, p.sharp);
+  return p;
+}
+
+LayoutPorts add_layout_stages(Flow& flow, const Port<Soup>& soup, const LayoutOptions& options) {
+  const std::uint64_t hash = options_hash(options);
+  LayoutPorts p;
+  p.features = add_feature_stages(flow, soup, options);
+  const auto& [surface, sharp, scale, curvature] = p.features;
+
+  const auto channel = [options](CurveKind kind) {
+    return [options, kind](const Work& w, const Surface& s, const Curvature& k, const Sharp& e) {
+      return curvature_to_ridges(w, s, k, e, kind, options);
+    };
+  };
+  using RidgeStage = Stage<Ridges, Surface, Curvature, Sharp>;
+  p.ridges = add_stage(flow, RidgeStage{"ridges", 1, hash, channel(CurveKind::ridge), "ridges", 0.2}, surface,
+                       curvature, sharp);
+  p.valleys = add_stage(flow, RidgeStage{"ridges", 1, hash, channel(CurveKind::valley), "valleys", 0.2}, surface,
+                        curvature, sharp);
+
+  const auto curves = [options](const Work& w, const Surface& s, const Ridges& r, const Ridges& v, const Sharp& e) {
+    return ridges_to_curves(w, s, r, v, e, options);
+  };
+  p.curves = add_stage(flow, Stage<Curves, Surface, Ridges, Ridges, Sharp>{"curves", 1, hash, curves, {}, 0.5}, surface,
+                       p.ridges, p.valleys, sharp);
+
+  const auto network = [options](const Work& w, const Surface& s, const Curvature& k, const Curves& c) {
+    return curves_to_network(w, s, k, c, options);
+  };
+  p.network = add_stage(flow, Stage<Network, Surface, Curvature, Curves>{"network", 1, hash, network, {}, 1}, surface,
+                        curvature, p.curves);
+
+  const auto patches = [options](const Work& w, const Surface& s, const Network& n) {
+    return network_to_patches(w, s, n, options);
+  };
+  p.patches = add_stage(flow, Stage<Patches, Surface, Network>{"patches", 1, hash, patches, {}, 1}, surface, p.network);
+
+  const auto layout = [options](const Work& w, const Surface& s, const Curvature& k, const Network& n,
+                                const Patches& q) { return patches_to_layout(w, s, k, n, q, options); };
+  p.layout = add_stage(flow, Stage<Layout, Surface, Curvature, Network, Patches>{"layout", 1, hash, layout, {}, 1},
+                       surface, curvature, p.network, p.patches);
+  return p;
+}
+
+}  // namespace intarsia::graph

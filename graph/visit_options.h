@@ -1,0 +1,49 @@
+// The one list of named options: command-line flags, help, the report and option hashes are all made from it. Defaults
+// and units are in the kernels' structs.
+#pragma once
+
+#include "graph/options.h"
+
+namespace intarsia::graph {
+
+// v(name, variable, help, least, most); variable is Real, int, Index, std::uint8_t or bool.
+template <class Options, class V>
+void visit_options(Options& o, V&& v) {
+  v("sharp.strong", o.sharp.strong, "dihedral turn that makes a mesh edge sharp, radians", 0.1, 3.1);
+  v("sharp.weak", o.sharp.weak, "turn of an edge that continues a sharp chain, radians", 0.05, 3.1);
+  v("sharp.min-length", o.sharp.min_length, "shortest connected set of sharp edges, diagonals", 0.0, 1.0);
+  v("sharp.barrier", o.barrier, "fits do not cross sharp edges", 0, 1);
+  v("scale.flat", o.scale.select.flat, "surface variation below which a ring is flat (omega_-)", 0.0, 2.0);
+  v("scale.bent", o.scale.select.bent, "surface variation of a well chosen ring (omega_+)", 0.0, 2.0);
+  v("scale.slack", o.scale.select.slack, "a smaller ring wins within this distance of omega_+", 0.0, 1.0);
+  v("scale.discs", o.scale.discs, "look beyond six rings where they are flat", 0, 1);
+  v("fit.normal-gate", o.curvature.fit.normal_gate, "least cosine between normals of a fit point", 0.0, 1.0);
+  v("fit.refine-normals", o.curvature.fit.refine_normals, "second pass of normals before the fit", 0, 1);
+  v("fit.anisotropy", o.curvature.anisotropy, "least relative difference of principal curvatures", 0.0, 1.0);
+  v("curves.turn-radius", o.curves.turn.radius, "radius of the turn angle, diagonals (rho)", 0.001, 0.2);
+  v("curves.join-radius", o.curves.join.radius, "largest gap joined, mean edges", 0.0, 20.0);
+  v("curves.min-turn", o.curves.filter.min_turn, "mean turn angle of a feature, radians", 0.0, 3.0);
+  v("curves.min-length", o.curves.filter.min_length, "shortest feature, diagonals", 0.0, 2.0);
+  v("curves.min-sharpness", o.curves.filter.min_sharpness, "least -k''/k^3 of a feature", -10.0, 100.0);
+  v("curves.min-saliency", o.choice.min_saliency, "integral of the turn angle along a feature", 0.0, 100.0);
+  v("length", o.curves.paper_filter.min_length, "paper mode: shortest curve, diagonals (L)", 0.0, 10.0);
+  v("curvature", o.curves.paper_filter.min_curvature, "paper mode: least RMS curvature, 1 / diagonal (R)", 0.0, 1e9);
+  v("strength", o.curves.paper_filter.min_strength, "paper mode: least curve strength (T)", 0.0, 1e12);
+  v("network.most-patches", o.choice.most_patches, "automatic: raise the threshold beyond so many patches", 1, 1e9);
+  v("network.budget", o.choice.budget, "share of --patches that the network itself may enclose", 0.0, 4.0);
+  v("network.snap", o.snap.snap, "edge points nearer to a vertex than this share of the edge move there", 0.0, 0.5);
+  v("extend.cone", o.extension.cone, "degrees between the ideal direction and a step", 10.0, 90.0);
+  v("extend.feedback", o.extension.feedback, "pull towards the ideal curve (kappa)", 0.0, 4.0);
+  v("extend.max-length", o.extension.max_length, "longest extension of an end, diagonals", 0.0, 10.0);
+  v("extend.meet", o.extension.meet, "mean edges at which a curve ends on another", 1.0, 10.0);
+  v("patches.max-spread", o.subdivide.split.max_spread, "normal spread that divides a patch, radians", 0.1, 3.1);
+  v("patches.trim", o.subdivide.split.trim, "share of the area left out at each end of the spread", 0.0, 0.45);
+  v("patches.tiny-area", o.subdivide.merge.tiny_area, "smaller shares of the surface are merged", 0.0, 0.5);
+  v("patches.discs", o.subdivide.discs, "cut patches until each is a disc", 0, 1);
+  v("smooth.iterations", o.smooth.iterations, "steps of boundary smoothing", 0, 1000);
+  v("smooth.length-weight", o.smooth.length_weight, "length against alignment in Eq. 8 (lambda)", 0.001, 1000.0);
+  v("smooth.reach", o.smooth.free_reach, "how far a free border may move, mean edges", 0.0, 10.0);
+  v("smooth.feature-reach", o.smooth.feature_reach, "how far a feature may move, mean edges", 0.0, 10.0);
+}
+
+}  // namespace intarsia::graph

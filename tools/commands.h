@@ -1,0 +1,12 @@
+// The commands of the program. Each adds its subcommand to the app; the callback returns through `exit_code`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace intarsia::tools {
+
+void add_run_command(CLI::App& app, int& exit_code);
+void add_features_command(CLI::App& app, int& exit_code);
+void add_make_command(CLI::App& app, int& exit_code);
+
+}  // namespace intarsia::tools

@@ -1,0 +1,122 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/io/read_mesh.h"
+#include "engine/io/write_file.h"
+#include "engine/io/write_ply.h"
+#include "engine/parallel/for_each.h"
+#include "engine/run/trace.h"
+#include "graph/layout_graph.h"
+#include "tools/commands.h"
+#include "tools/exit_code.h"
+#include "tools/interrupt.h"
+#include "tools/option_flags.h"
+#include "tools/progress_bar.h"
+#include "tools/report.h"
+#include "tools/write_result.h"
+
+namespace intarsia::tools {
+namespace {
+
+struct FeaturesFlags {
+  std::string input, output;
+  CommonFlags common;
+  OptionFlags method;
+};
+
+// The fields in the input's numbering and units. Vertices that no face uses are invalid, their fields zero.
+Written write_fields(const Work& work, const std::filesystem::path& path, const Soup& soup,
+                     const graph::Surface& surface, const graph::Scale& scale, const graph::Curvature& curvature) {
+  std::vector<Index> mesh_vertex(soup.vertex_count(), kNone);
+  for_each(work, Cost::light, surface.order.vertex.size(),
+           [&](std::size_t v) { mesh_vertex[surface.order.vertex[v]] = static_cast<Index>(v); });
+  const CurvatureFields& k = curvature.fields;
+  const Real one = 1, per_length = 1 / surface.box.diagonal, per_area = per_length * per_length;
+  const auto real = [&](const std::vector<Real>& values, Real unit) {
+    return [&mesh_vertex, data = values.data(), unit](std::size_t v) {
+      return mesh_vertex[v] == kNone ? 0.0 : unit * data[mesh_vertex[v]];
+    };
+  };
+  PlyFile ply;
+  ply.comment("intarsia features: curvature is positive where the surface is convex, in the units of the input");
+  auto& vertex = ply.element("vertex", soup.vertex_count());
+  vertex.xyz<double>(soup.x, soup.y, soup.z);
+  vertex.column<double>("nx", real(k.normal.x, one)).column<double>("ny", real(k.normal.y, one));
+  vertex.column<double>("nz", real(k.normal.z, one));
+  for (std::size_t i = 0; i < scale.fields.omega.size(); ++i)
+    vertex.column<double>("omega_" + std::to_string(i + 1), real(scale.fields.omega[i], one));
+  vertex.column<double>("kmax", real(k.kmax, per_length)).column<double>("kmin", real(k.kmin, per_length));
+  vertex.column<double>("tmax_x", real(k.tmax.x, one)).column<double>("tmax_y", real(k.tmax.y, one));
+  vertex.column<double>("tmax_z", real(k.tmax.z, one)).column<double>("tmin_x", real(k.tmin.x, one));
+  vertex.column<double>("tmin_y", real(k.tmin.y, one)).column<double>("tmin_z", real(k.tmin.z, one));
+  vertex.column<double>("emax", real(k.emax, per_area)).column<double>("emin", real(k.emin, per_area));
+  const auto number = [&](const auto& values, int missing) {
+    return [&mesh_vertex, data = values.data(), missing](std::size_t v) {
+      return mesh_vertex[v] == kNone ? missing : static_cast<int>(data[mesh_vertex[v]]);
+    };
+  };
+  vertex.column<std::int32_t>("scale", number(scale.fields.scale, 0));
+  vertex.column<std::int32_t>("fit_ring", number(k.ring, 0));
+  vertex.column<std::int32_t>("status", number(k.status, static_cast<int>(FitStatus::invalid)));
+  auto& face = ply.element("face", soup.face_count());
+  face.triangles(soup.corner);
+  if (!soup.source_face.empty()) face.column<std::int32_t>("source_face", soup.source_face);
+  write_ply(work, path, ply);
+  return {1, std::filesystem::file_size(path)};
+}
+
+int features(const FeaturesFlags& flags) {
+  graph::LayoutOptions options = flags.method.options(flags.common);
+  options.scale.keep_variation = true;
+  RunSettings settings;
+  settings.threads = flags.common.threads, settings.seed = flags.common.seed;
+  settings.order = flags.common.order == "relaxed" ? Order::relaxed : Order::fixed;
+  RunContext context(settings, &interrupt_flag());
+  ProgressBar bar(flags.common.quiet ? ProgressBar::Style::none : ProgressBar::style_for_terminal());
+  context.add_listener(bar);
+
+  Flow flow(context, std::filesystem::path(flags.input).filename().string());
+  const auto read = [path = std::filesystem::path(flags.input)](const Work& work) { return read_mesh(work, path); };
+  const Port<Soup> soup = add_stage(flow, Stage<Soup>{"read", 1, 0, read, {}, 0.3});
+  const graph::FeaturePorts ports = graph::add_feature_stages(flow, soup, options);
+  const auto write = [path = std::filesystem::path(flags.output)](
+                         const Work& work, const Soup& s, const graph::Surface& surface, const graph::Scale& scale,
+                         const graph::Curvature& curvature) {
+    return write_fields(work, path, s, surface, scale, curvature);
+  };
+  add_stage(flow, Stage<Written, Soup, graph::Surface, graph::Scale, graph::Curvature>{"write", 1, 0, write, {}, 0.5},
+            soup, ports.surface, ports.scale, ports.curvature);
+  const auto write_report = [&] {
+    if (flags.common.report.empty()) return;
+    const nlohmann::json report =
+        base_report("features", flags.input, flags.common, context, flow.record(), flags.method.to_json(options));
+    write_file_atomically(flags.common.report, report.dump(1) + "\n");
+  };
+  try {
+    flow.run();
+  } catch (const Error&) {
+    write_report();
+    throw;
+  }
+  write_report();
+  if (!flags.common.trace.empty())
+    write_file_atomically(flags.common.trace, chrome_trace({{"intarsia", &flow.record()}}).dump(1) + "\n");
+  if (!flags.common.quiet) fmt::print("written to {}\n", flags.output);
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_features_command(CLI::App& app, int& exit_code) {
+  auto flags = std::make_shared<FeaturesFlags>();
+  CLI::App* command = app.add_subcommand("features", "per-vertex fields: surface variation, curvature, extremality");
+  command->add_option("input", flags->input, "mesh: .ply .obj .stl .off")->required();
+  command->add_option("-o,--output", flags->output, "fields as a binary PLY file")->required();
+  add_common_flags(*command, flags->common);
+  flags->method.add_to(*command);
+  command->callback([flags, &exit_code] { exit_code = features(*flags); });
+}
+
+}  // namespace intarsia::tools

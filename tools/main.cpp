@@ -1,0 +1,52 @@
+// Picks a command, catches once, returns the exit status.
+#include <exception>
+#include <new>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "tools/commands.h"
+#include "tools/exit_code.h"
+#include "tools/report.h"
+
+namespace {
+
+int fail(const intarsia::Error& e) {
+  const std::string where = e.stage().empty() ? "" : e.stage() + ": ";
+  if (e.code() == intarsia::ErrorCode::cancelled)
+    spdlog::error("interrupted; nothing was written");
+  else
+    spdlog::error("{}{}", where, e.what());
+  return intarsia::tools::exit_code_of(e.code());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace intarsia::tools;
+  spdlog::set_default_logger(spdlog::stderr_color_mt("intarsia"));
+  spdlog::set_pattern("%n: %l: %v");
+  CLI::App app("Intarsia: patch layouts of triangle meshes along their ridges and valleys", "intarsia");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "intarsia " INTARSIA_VERSION);
+  int exit_code = kExitDone;
+  add_run_command(app, exit_code);
+  add_features_command(app, exit_code);
+  add_make_command(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? kExitDone : kExitUsage;
+  } catch (const intarsia::Error& e) {
+    return fail(e);
+  } catch (const std::bad_alloc&) {
+    spdlog::error("out of memory; try a smaller mesh or more memory");
+    return kExitLimit;
+  } catch (const std::exception& e) {
+    spdlog::error("internal error: {}", e.what());
+    return kExitInternal;
+  }
+  return exit_code;
+}

@@ -1,0 +1,68 @@
+#include "tools/option_flags.h"
+
+#include <nlohmann/json.hpp>
+
+#include "graph/layout_graph.h"
+#include "graph/visit_options.h"
+
+namespace intarsia::tools {
+
+void add_common_flags(CLI::App& app, CommonFlags& flags) {
+  app.add_option("-t,--threads", flags.threads, "threads; 0 = all allowed processors")->check(CLI::NonNegativeNumber);
+  app.add_option("--mode", flags.mode, "robust, or paper (the letter of Cao, Yan, Wonka 2014)")
+      ->check(CLI::IsMember({"robust", "paper"}))
+      ->capture_default_str();
+  app.add_option("--order", flags.order, "fixed: same bits on any number of threads; relaxed: to show what that costs")
+      ->check(CLI::IsMember({"fixed", "relaxed"}))
+      ->capture_default_str();
+  app.add_option("--seed", flags.seed, "of the random subdivision seeds in paper mode")->capture_default_str();
+  app.add_option("--report", flags.report, "write the report to this file too");
+  app.add_option("--trace", flags.trace, "write a Chrome trace of the stages to this file");
+  app.add_flag("-q,--quiet", flags.quiet, "print nothing but errors");
+}
+
+void OptionFlags::add_to(CLI::App& app) {
+  graph::visit_options(given_values_, [&](const char* name, auto& value, const char* help, auto least, auto most) {
+    CLI::Option* flag = app.add_option(std::string("--") + name, value, help)->capture_default_str();
+    if constexpr (!std::is_same_v<std::remove_reference_t<decltype(value)>, bool>) {
+      flag->check([least, most](const std::string& text) -> std::string {
+        try {
+          const double v = std::stod(text);
+          if (v >= static_cast<double>(least) && v <= static_cast<double>(most)) return {};
+        } catch (const std::exception&) {
+        }
+        return "must be a number in " + std::to_string(least) + " .. " + std::to_string(most);
+      });
+    }
+    flag->group("Method");
+    flags_.emplace_back(name, flag);
+  });
+}
+
+graph::LayoutOptions OptionFlags::options(const CommonFlags& common) const {
+  graph::LayoutOptions options = common.mode == "paper" ? graph::paper_options(common.seed) : graph::robust_options();
+  options.seed = common.seed;
+  std::vector<Real> given;
+  graph::visit_options(given_values_, [&](const char*, const auto& value, const char*, auto, auto) {
+    given.push_back(static_cast<Real>(value));
+  });
+  std::size_t i = 0;
+  graph::visit_options(options, [&](const char*, auto& value, const char*, auto, auto) {
+    if (flags_[i].second->count() > 0) value = static_cast<std::remove_reference_t<decltype(value)>>(given[i]);
+    ++i;
+  });
+  graph::check_options(options);
+  return options;
+}
+
+nlohmann::json OptionFlags::to_json(const graph::LayoutOptions& options) const {
+  nlohmann::json out;
+  std::size_t i = 0;
+  graph::visit_options(options, [&](const char* name, const auto& value, const char*, auto, auto) {
+    out[name] = {{"value", value}, {"given", flags_[i].second->count() > 0}};
+    ++i;
+  });
+  return out;
+}
+
+}  // namespace intarsia::tools

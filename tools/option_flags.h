@@ -1,0 +1,38 @@
+// The list of the method's options (graph/visit_options.h) as command-line flags and as JSON.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json_fwd.hpp>
+
+#include "graph/options.h"
+
+namespace intarsia::tools {
+
+// Settings every command that runs stages has.
+struct CommonFlags {
+  std::string mode = "robust", order = "fixed", report, trace;
+  int threads = 0;
+  std::uint64_t seed = 0;
+  bool quiet = false;
+};
+
+void add_common_flags(CLI::App& app, CommonFlags& flags);
+
+// Adds one flag per option. Values given on the command line are kept apart until apply() writes them over the mode's
+// own values.
+class OptionFlags {
+ public:
+  void add_to(CLI::App& app);
+  // The options of the mode with what was given. Errors: bad_argument naming the option that is out of range.
+  graph::LayoutOptions options(const CommonFlags& common) const;
+  // {"name": {"value": v, "given": true | false}}
+  nlohmann::json to_json(const graph::LayoutOptions& options) const;
+
+ private:
+  graph::LayoutOptions given_values_;
+  std::vector<std::pair<std::string, CLI::Option*>> flags_;
+};
+
+}  // namespace intarsia::tools

@@ -1,0 +1,52 @@
+#include "tools/preview.h"
+
+#include <fmt/format.h>
+
+#include "tools/picture/strip.h"
+
+namespace intarsia::tools {
+namespace {
+
+void append(Lines& lines, const Lines& more) {
+  for (std::size_t i = 0; i < more.count(); ++i)
+    lines.add(std::span(more.point).subspan(more.offset[i], more.offset[i + 1] - more.offset[i]), more.style[i]);
+}
+
+std::string counted(std::size_t n, const char* one, const char* many) {
+  return fmt::format("{} {}", n, n == 1 ? one : many);
+}
+
+Panel panel(std::string title, std::string caption, const Shape& shape, Lines lines = {}) {
+  Panel p;
+  p.title = std::move(title), p.caption = std::move(caption), p.shape = shape, p.lines = std::move(lines);
+  return p;
+}
+
+}  // namespace
+
+Image draw_preview(const Work& work, const PreviewInput& in) {
+  const MeshView mesh = in.surface.mesh;
+  Strip strip;
+  strip.add(panel("input", counted(mesh.face_count(), "triangle", "triangles"), shape_of(mesh)));
+
+  Lines raw = lines_of(mesh, in.ridges.curves.net);
+  append(raw, lines_of(mesh, in.valleys.curves.net));
+  append(raw, lines_of(mesh, in.sharp.edges.curves.net));
+  const std::size_t lines =
+      in.ridges.curves.curve_count() + in.valleys.curves.curve_count() + in.sharp.edges.curves.curve_count();
+  strip.add(panel("ridges and valleys", counted(lines, "line", "lines"), shape_of(mesh), std::move(raw)));
+  strip.add(panel("filtered", counted(in.network.features.curve_count(), "curve", "curves"), shape_of(mesh),
+                  lines_of(mesh, in.network.features)));
+  const RefinedMesh& network = in.network.refined;
+  strip.add(panel("closed network", counted(in.network.patches, "region", "regions"), shape_of(network.mesh.view()),
+                  lines_of(network.mesh, network.on_network, network.edge_kind)));
+  const RefinedMesh& refined = in.layout.refined;
+  Shape patched = shape_of(refined.mesh.view());
+  patched.face_label = in.layout.labels.patch_of_face;
+  patched.label_colour = in.patch_colour;
+  strip.add(panel("layout", counted(in.layout.labels.count, "patch", "patches"), patched,
+                  restyled(lines_of(refined.mesh, refined.on_network, refined.edge_kind), kBorderLine)));
+  return draw_strip(work, strip);
+}
+
+}  // namespace intarsia::tools

@@ -1,0 +1,42 @@
+#include "tools/write_result.h"
+
+#include "tools/picture/palette.h"
+#include "tools/picture/png_file.h"
+#include "tools/preview.h"
+
+namespace intarsia::tools {
+
+std::vector<std::string> result_names() {
+  return {"patches.ply", "layout.ply", "network.ply", "network.json", "report.json", "preview.png"};
+}
+
+Written write_result(const Work& work, const OutputFolder& folder, const Soup& soup, const graph::Surface& surface,
+                     const graph::Ridges& ridges, const graph::Ridges& valleys, const graph::Sharp& sharp,
+                     const graph::Network& network, const graph::Layout& layout) {
+  const std::vector<Rgb> colour = patch_colours(
+      work, adjacent_patches(work, layout.refined.mesh, layout.labels.patch_of_face, layout.labels.count));
+  std::vector<std::array<std::uint8_t, 3>> rgb;
+  for (const Rgb& c : colour) rgb.push_back({c.r, c.g, c.b});
+  LayoutView view;
+  view.soup = &soup;
+  view.vertex_order = surface.order.vertex, view.face_order = surface.order.face;
+  view.centre = surface.box.centre, view.diagonal = surface.box.diagonal;
+  view.refined = &layout.refined, view.labels = &layout.labels, view.graph = &layout.graph;
+  view.interior = &layout.interior, view.mesh = surface.mesh, view.face_patch = layout.face_patch;
+  view.patch_colour = rgb;
+
+  write_patches_ply(work, folder.file("patches.ply"), view);
+  write_layout_ply(work, folder.file("layout.ply"), view);
+  write_network_ply(work, folder.file("network.ply"), view);
+  write_network_json(work, folder.file("network.json"), view);
+  write_png(folder.file("preview.png"), draw_preview(work, {surface, ridges, valleys, sharp, network, layout, colour}));
+  Written written;
+  for (const std::string& name : result_names()) {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(folder.file(name), error);
+    if (!error) ++written.files, written.bytes += size;
+  }
+  return written;
+}
+
+}  // namespace intarsia::tools
