@@ -34,7 +34,7 @@ FeaturePorts add_feature_stages(Flow& flow, const Port<Soup>& soup, const Layout
   FeaturePorts p;
   p.surface = add_stage(flow, Stage<Surface, Soup>{"surface", 1, hash, mesh_to_surface, {}, 1}, soup);
   const auto sharp = [options](const Work& w, const Surface& s) { return surface_to_sharp(w, s, options); };
-  p.sharp = add_stage(flow, Stage<Sharp, Surface>{"ridges", 1, hash, sharp, "sharp", 0.1}, p.surface);
+  p.sharp = add_stage(flow, Stage<Sharp, Surface>{"surface", 1, hash, sharp, "sharp", 0.1}, p.surface);
   const auto scale = [options](const Work& w, const Surface& s, const Sharp& e) {
     return surface_to_scale(w, s, e, options);
   };
