@@ -10,7 +10,7 @@ namespace {
 // |p| against a radius that depends on the direction, z squeezed. Ridges run where the turned angle is a multiple of
 // 2 pi / petals; their crest is a hyperbola of width `crease`, between them lie smooth valleys.
 constexpr Real kFlat = 1 / 0.9;  // squeeze along z
-constexpr Real kCore = 0.3;      // inside this radius the direction shrinks: no singularity at the origin
+constexpr Real kCore = 0.6;      // inside this radius the direction shrinks: no singularity at the origin
 
 struct Star {
   int petals;
@@ -21,7 +21,7 @@ struct Star {
     const T sz = z * kFlat;
     const T r = length(x, y, sz), unit = larger(r, T(kCore));
     const T ux = x / unit, uy = y / unit, uz = sz / unit;
-    const T rho2 = square(ux) + square(uy), rho = root(T(rho2 + 1e-8));
+    const T rho2 = square(ux) + square(uy), rho = root(T(rho2 + 1e-20));
     // cos(petals * (angle - twist * z)) from powers of (ux + i uy) / rho.
     const T turn = uz * twist;
     T cr = T(1), ci = T(0);
@@ -54,7 +54,7 @@ Vec3 star_crest(Real petals, Real depth, Real crease, Real twist, int ridge, Rea
 std::unique_ptr<Field> star_field(Real petals, Real depth, Real crease, Real twist) {
   const Real n = std::round(petals);
   // Steepest change of the radius over the sphere, outside the core: flanks of the ridges, plus the turn.
-  const Real angular = depth * (0.5 * n) * std::hypot(1.0, twist) / 0.3 + 1.5;
+  const Real angular = (depth * (0.5 * n) * std::hypot(1.0, twist) + 1.2) / kCore;
   const Star star{static_cast<int>(n), depth, crease, twist, std::hypot(1.0, angular)};
   return make_field(star, Vec3(-1.5, -1.5, -1.1), Vec3(1.5, 1.5, 1.1));
 }

@@ -62,13 +62,13 @@ TEST_CASE("a field is a lower bound of the distance: its slope is at most 1") {
 TEST_CASE("gradients are those of the values") {
   for_each_field([](const Field& field) {
     const Random random(8, 2);
-    int bad = 0, near = 0;
+    int bad = 0, near = 0, different = 0;
     const Real size = (field.high - field.low).norm(), h = 1e-6 * size;
     for (std::uint64_t i = 0; i < 20000; ++i) {
       const Vec3 p = point_in(field.low, field.high, random, i);
       Vec3 g;
       const Real f = field.value(p, g);
-      CHECK(f == field.value(p));
+      different += std::abs(f - field.value(p)) > 1e-14 * size;
       if (std::abs(f) > 0.02 * size) continue;
       ++near;
       Vec3 numeric;
@@ -79,6 +79,7 @@ TEST_CASE("gradients are those of the values") {
       }
       bad += (g - numeric).norm() > 1e-4;
     }
+    CHECK(different == 0);
     CHECK(near > 50);
     CHECK(bad <= near / 1000 + 3);  // a point may lie within h of a joint of two pieces
   });
