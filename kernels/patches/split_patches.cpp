@@ -104,15 +104,18 @@ RegionGraph induced(const RegionGraph& g, std::span<const Index> nodes, std::vec
   return sub;
 }
 
-// One more seed in region r, which only r and its neighbours are fitted to again: with many regions a full round for
-// each seed would make the whole quadratic. Returns the regions that changed; empty if r cannot be divided.
-std::vector<Index> add_seed_locally(const Work& work, const RegionGraph& g, Index r, const ProxyOptions& options,
-                                    std::vector<Index>& rank, Members& members, ProxyFit& fit) {
+// One more seed in region r, after which only r, and with `around` its neighbours, are fitted again: with many regions
+// a full round for each seed would make the whole quadratic. Returns the regions that changed, the new one last; empty
+// if r cannot be divided.
+std::vector<Index> add_seed_locally(const Work& work, const RegionGraph& g, Index r, bool around,
+                                    const ProxyOptions& options, std::vector<Index>& rank, Members& members,
+                                    ProxyFit& fit) {
   const Index seed = worst_node(g, fit, r, members[r]);
   if (seed == kNone) return {};
   std::vector<Index> changed{r}, nodes;
-  for (const Index n : members[r])
-    for (const Index o : g.row(n)) changed.push_back(fit.label[o]);
+  if (around)
+    for (const Index n : members[r])
+      for (const Index o : g.row(n)) changed.push_back(fit.label[o]);
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   for (const Index c : changed) nodes.insert(nodes.end(), members[c].begin(), members[c].end());
@@ -140,10 +143,13 @@ std::vector<Index> add_seed_locally(const Work& work, const RegionGraph& g, Inde
   return changed;
 }
 
+constexpr Index kFitAll = 8;      // regions up to which all are fitted again for each new seed
+constexpr Index kFitAround = 64;  // regions up to which the neighbours of the worst one are
+
 Index split_region(const Work& work, const PatchSurface& s, const Region& region, const SplitOptions& options,
                    Regions& regions) {
-  const RegionGraph g = make_region_graph(work, s, region, node_size_for(region.faces.size()), options.smooth_normals,
-                                          regions);
+  const RegionGraph g =
+      make_region_graph(work, s, region, node_size_for(region.faces.size()), options.smooth_normals, regions);
   const Csr faces_of_node = faces_of_patches({g.node_of_face, g.nodes()});
   const std::vector<Index> whole(g.nodes(), 0);
   Members members = members_of(whole, 1);
@@ -167,11 +173,11 @@ Index split_region(const Work& work, const PatchSurface& s, const Region& region
           (worst == kNone || spread[r] > spread[worst]))
         worst = r;
     if (worst == kNone) break;
-    if (count < 8 || (count & (count - 1)) == 0) {
+    if (count < kFitAll || (count <= kFitAround && (count & (count - 1)) == 0)) {
       changed.clear();
       if (!add_seed(work, g, worst, more, members, fit)) break;
     } else {
-      changed = add_seed_locally(work, g, worst, more, rank, members, fit);
+      changed = add_seed_locally(work, g, worst, count <= kFitAround, more, rank, members, fit);
       if (changed.empty()) break;
     }
   }
@@ -216,7 +222,8 @@ Index approximate_region(const Work& work, const PatchSurface& s, const Region& 
   while (fit.regions() < std::min(count, g.nodes())) {
     Index worst = kNone;
     for (Index r = 0; r < fit.regions(); ++r)
-      if (worst_node(g, fit, r, members[r]) != kNone && (worst == kNone || fit.energy[r] > fit.energy[worst])) worst = r;
+      if (worst_node(g, fit, r, members[r]) != kNone && (worst == kNone || fit.energy[r] > fit.energy[worst]))
+        worst = r;
     if (worst == kNone || !add_seed(work, g, worst, options.fit, members, fit)) break;
   }
   return write_regions(work, s, region, g, fit, options, regions);

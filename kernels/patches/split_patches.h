@@ -12,7 +12,7 @@ namespace intarsia::kernels {
 struct SplitOptions {
   Real max_spread = std::numbers::pi / 2;  // radians (paper)
   Real trim = 0.08;                        // share of the area left out at each end of the spread
-  Real least_area = 1.6e-3;    // of the whole surface: smaller regions stay, their halves would be tiny
+  Real least_area = 1.6e-3;                // of the whole surface: smaller regions stay, their halves would be tiny
   bool literal = false;                    // paper: any two triangles decide, not the trimmed spread
   bool random_seeds = false;               // paper: two random first seeds, keyed by (seed, patch)
   std::uint64_t seed = 0;
@@ -25,9 +25,10 @@ struct SplitOptions {
 SplitOptions paper_split(std::uint64_t seed);
 
 // Patches whose spread is too large become regions by variational shape approximation from two seeds, with one more
-// seed in the worst region until every region complies. With eight or more regions only the worst one and its neighbours
-// are fitted again (all of them each time their number doubles). Flat patches stay whole. Patches are independent of each other and of the number of threads.
-// Ensures: every patch connected; no border of `labels` is moved or lost.
+// seed in the worst region until every region complies. From eight regions on only the worst one and its neighbours are
+// fitted again (all of them each time their number doubles), beyond 64 the worst one alone. Flat patches stay whole.
+// Patches are independent of each other and of the number of threads. Ensures: every patch connected; no border of
+// `labels` is moved or lost.
 PatchLabels split_patches(const Work& work, const PatchSurface& surface, const PatchLabels& labels,
                           const SplitOptions& options);
 
