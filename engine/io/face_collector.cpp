@@ -1,5 +1,7 @@
 #include "engine/io/face_collector.h"
 
+#include <array>
+#include <cstdio>
 #include <numeric>
 
 #include "engine/io/file_error.h"
@@ -70,11 +72,13 @@ void FaceCollector::check_room(std::uint64_t more_triangles) const {
 }
 
 void check_coordinate(const std::filesystem::path& path, std::uint64_t vertex, Real value) {
-  if (!is_usable(value))
-    throw_bad_file(path,
-                   "vertex " + std::to_string(vertex) + " (counted from 0) has the coordinate " +
-                       std::to_string(value) + ", which is not a usable number",
-                   "remove that vertex and its faces or export the mesh again", vertex);
+  if (is_usable(value)) return;
+  std::array<char, 32> shown{};
+  std::snprintf(shown.data(), shown.size(), "%g", value);
+  throw_bad_file(path,
+                 "vertex " + std::to_string(vertex) + " (counted from 0) has the coordinate " + shown.data() +
+                     ", which is not a usable number",
+                 "remove that vertex and its faces or export the mesh again", vertex);
 }
 
 void check_vertex_count(const std::filesystem::path& path, std::uint64_t count) {

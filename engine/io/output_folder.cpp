@@ -89,13 +89,14 @@ OutputFolder::OutputFolder(const fs::path& target, std::vector<std::string> our_
   if (!fs::is_directory(parent_, error))
     throw_write_failed(target, "cannot be written: there is no folder " + parent_.string() + "; create it first", 0);
   recover();
+  int failure = 0;
   do {
     fresh_ = parent_ / temporary_name(Temporary::new_result, target_);
-  } while (::mkdir(fresh_.c_str(), 0777) != 0 && errno == EEXIST);
-  if (!is_folder(fresh_)) {
-    const int reason = errno;
+    failure = ::mkdir(fresh_.c_str(), 0777) == 0 ? 0 : errno;
+  } while (failure == EEXIST);
+  if (failure != 0) {
     fresh_.clear();
-    throw_write_failed(target, "cannot be written: no folder can be made in " + parent_.string(), reason);
+    throw_write_failed(target, "cannot be written: no folder can be made in " + parent_.string(), failure);
   }
   struct stat earlier {};
   if (::stat(target_.c_str(), &earlier) == 0 && ::chmod(fresh_.c_str(), (earlier.st_mode & 07777) | 0700) != 0)

@@ -132,7 +132,8 @@ PlainText plain_obj(const Work& work, const std::filesystem::path& path, std::st
   std::string joined;
   while (!writer.at_end()) {
     std::string_view line = writer.line();
-    if (!line.empty() && line.back() == '\\') {  // goes on in the next line
+    const bool comment = TextScanner(line).word().substr(0, 1) == "#";
+    if (!comment && !line.empty() && line.back() == '\\') {  // goes on in the next line
       joined.clear();
       while (!line.empty() && line.back() == '\\') {
         joined.append(line.substr(0, line.size() - 1)).push_back(' ');

@@ -44,6 +44,28 @@ pid_t in_killed_process(const std::function<void()>& f) {
   return child;
 }
 
+// Runs f without the powers of the superuser, to whom nothing is read-only; returns what it returns.
+bool as_ordinary_user(const TemporaryFolder& folder, const std::function<bool()>& f) {
+  constexpr uid_t kNobody = 65534;
+  const bool powerful = ::geteuid() == 0;
+  if (powerful) REQUIRE(::chown(folder.path().c_str(), kNobody, kNobody) == 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    bool good = !powerful || (::setgid(kNobody) == 0 && ::setuid(kNobody) == 0);
+    try {
+      good = good && f();
+    } catch (...) {
+      good = false;
+    }
+    ::_exit(good ? 0 : 1);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+constexpr fs::perms kReadOnly = fs::perms::owner_read | fs::perms::owner_exec;
+
 // The name that process `owner` would have used beside `target`.
 std::string name_by(pid_t owner, Temporary kind, const fs::path& target) {
   std::string name = temporary_name(kind, target);
@@ -169,15 +191,45 @@ TEST_CASE("targets that cannot work are refused by name") {
   refused(fs::current_path(), "current folder");
   refused(".", "current folder");
   refused(fs::current_path().parent_path(), "current folder");
-  if (::geteuid() != 0) {
-    fs::create_directories(folder / "locked" / "out");
-    fs::permissions(folder / "locked", fs::perms::owner_read | fs::perms::owner_exec);
-    refused(folder / "locked" / "new", "locked");
-    fs::permissions(folder / "locked", fs::perms::owner_all);
-    fs::permissions(folder / "locked" / "out", fs::perms::owner_read | fs::perms::owner_exec);
-    refused(folder / "locked" / "out", "cannot be written");
-  }
   CHECK(get_file(folder / "file") == "mine");
+}
+
+TEST_CASE("folders that may not be written are refused by name") {
+  const TemporaryFolder folder;
+  CHECK(as_ordinary_user(folder, [&] {
+    const auto refused = [&](const fs::path& target) {
+      const auto error = error_of([&] { OutputFolder out(target, kNames); });
+      return error && error->code() == ErrorCode::write_failed && mentions(error, target.string()) &&
+             mentions(error, "ermission");
+    };
+    fs::create_directories(folder / "open" / "out");
+    fs::permissions(folder / "open" / "out", kReadOnly);
+    fs::create_directory(folder / "locked");
+    fs::permissions(folder / "locked", kReadOnly);
+    const bool good = refused(folder / "locked" / "new") && refused(folder / "open" / "out");
+    fs::permissions(folder / "open" / "out", fs::perms::owner_all);
+    fs::permissions(folder / "locked", fs::perms::owner_all);
+    return good;
+  }));
+}
+
+TEST_CASE("if a user's folder cannot be moved, all is as it was") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  CHECK(as_ordinary_user(folder, [&] {
+    fs::create_directories(out / "locked");
+    put_file(out / "a.txt", "before it");
+    put_file(out / "z.txt", "behind it");
+    put_file(out / "report.json", "old");
+    fs::permissions(out / "locked", kReadOnly);  // its link to the folder above cannot be changed
+    const auto error = error_of([&] { write_results(out, "new"); });
+    const bool good = error && error->code() == ErrorCode::write_failed && mentions(error, "locked") &&
+                      get_file(out / "report.json") == "old" && !fs::exists(out / "patches.ply") &&
+                      get_file(out / "a.txt") == "before it" && get_file(out / "z.txt") == "behind it" &&
+                      fs::exists(out / "locked") && folder.entry_count() == 1;
+    fs::permissions(out / "locked", fs::perms::owner_all);
+    return good;
+  }));
 }
 
 TEST_CASE("names outside the list are a mistake of the program") {

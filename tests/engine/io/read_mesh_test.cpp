@@ -69,7 +69,7 @@ TEST_CASE("OBJ: all ways to write a corner, and relative indices between groups"
   const std::string normals = "vn 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n";
   for (const std::string face :
        {"f 1 2 3", "f 1/1 2/2 3/3", "f 1//1 2//1 3//1", "f 1/1/1 2/2/1 3/3/1", "f -3 -2 -1", "f -3//-1 -2//-1 -1//-1",
-        "f\t1  2 3  ", "  f 1 2 3 # why not", "f 1/ 2/ 3/", "fo 1 2 3", "f 1 2 \\\n 3"}) {
+        "f\t1  2 3  ", "  f 1 2 3 # why not", "f 1/ 2/ 3/", "fo 1 2 3", "f 1 2 \\\n 3", "# C:\\meshes\\\nf 1 2 3"}) {
     const Soup soup = obj(kThree + normals + face + "\r\n");
     CHECK(soup.corner == std::vector<Index>{0, 1, 2});
     CHECK(soup.x == std::vector<Real>{0, 1, 0});
