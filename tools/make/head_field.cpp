@@ -6,7 +6,8 @@ namespace intarsia::tools {
 
 namespace {
 
-constexpr Real kWaves = 10;  // of the hair, per unit of length / 2 pi
+constexpr Real kHairline = 0.05;  // width of the blend between face and hair
+constexpr Real kWaves = 10;       // of the hair, per unit of length / 2 pi
 
 // The face looks along -y, z is up.
 struct Head {
@@ -38,10 +39,10 @@ struct Head {
     const Real k = kWaves;
     T hair = ellipsoid_at(x, y, z, {0, 0.20, 0.46}, {0.86, 1.0, 0.94});
     hair = intersect_smooth(hair, T(0.18 - 0.75 * z - 0.66 * y + 0.10 * square(x)), 0.16);
-    if (curls > 0)
+    if (curls > 0 && value_of(hair) - 3 * curls < value_of(f) + kHairline)  // elsewhere it changes nothing
       hair = hair + curls * (sine(T(k * x)) * cosine(T(k * y)) + sine(T(k * y)) * cosine(T(k * z)) +
                              sine(T(k * z)) * cosine(T(k * x)));
-    f = unite_smooth(f, hair, 0.05);
+    f = unite_smooth(f, hair, kHairline);
     f = intersect_smooth(f, T(-1.38 - z), 0.12);  // the base
     return f / (1.1 + 2.45 * k * curls);          // the waves' slope is at most sqrt(6) k times their height
   }

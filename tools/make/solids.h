@@ -13,19 +13,22 @@ namespace intarsia::tools {
 // Both a and b (distances), their common outer edge rounded with radius r. Exact where a and b are orthogonal.
 template <class T>
 T intersect_round(const T& a, const T& b, Real r) {
+  if (value_of(a) <= -r || value_of(b) <= -r) return larger(a, b);
   return smaller(T(-r), larger(a, b)) + corner_length(T(a + r), T(b + r));
 }
 
 // Either a or b, with a fillet of radius r in the inner edge. Exact where a and b are orthogonal.
 template <class T>
 T unite_round(const T& a, const T& b, Real r) {
+  if (value_of(a) >= r || value_of(b) >= r) return smaller(a, b);
   return larger(T(r), smaller(a, b)) - corner_length(T(r - a), T(r - b));
 }
 
 // Either a or b, blended over the width k with continuous curvature (cubic).
 template <class T>
 T unite_smooth(const T& a, const T& b, Real k) {
-  const T h = positive(T(k - magnitude(T(a - b)))) / k;
+  if (std::abs(value_of(a) - value_of(b)) >= k) return smaller(a, b);
+  const T h = (k - magnitude(T(a - b))) / k;
   return smaller(a, b) - h * square(h) * (k / 6);
 }
 template <class T>
