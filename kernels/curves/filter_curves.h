@@ -10,8 +10,7 @@ namespace intarsia::kernels {
 struct FilterOptions {
   Real min_turn = 0.3;       // mean turn angle along the component
   Real min_length = 0.03;    // of the component
-  Real min_sharpness = 0.3;  // mean of -k'' / kd^3 along the component
-  Real min_saliency = 0.04;  // integral of the turn angle along the component
+  Real min_sharpness = 0.7;  // mean of -k'' / kd^3 along the component
 };
 
 // The paper's thresholds on each curve (R and T at diagonal 1).

@@ -8,7 +8,7 @@ namespace intarsia::kernels {
 
 // Angles in radians, lengths in mean edge lengths.
 struct JoinOptions {
-  Real radius = 2.5;                // largest distance of two ends (paper: 1-ring neighbourhoods)
+  Real radius = 3.5;                // largest distance of two ends (paper: 1-ring neighbourhoods)
   Real alpha = 1.0471975511965976;  // between the way out of one end and the gap; the paper's beta for the other end
   Real gamma = 1.5707963267948966;  // between the way out of one end and the way into the other
   Real direction_length = 4;        // the way out of an end is the chord over its last stretch of this length

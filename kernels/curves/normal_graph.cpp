@@ -23,7 +23,7 @@ Vec3 area_normal_at(const MeshView& mesh, Index v) {
 
 }  // namespace
 
-NormalGraph normal_graph(const Work& work, const MeshView& mesh, Real spacing) {
+NormalGraph normal_graph(const Work& work, const MeshView& mesh, std::span<const std::uint8_t> barrier, Real spacing) {
   NormalGraph graph;
   const Index n = mesh.vertex_count();
   Vec3Array normal(n);
@@ -40,7 +40,9 @@ NormalGraph normal_graph(const Work& work, const MeshView& mesh, Real spacing) {
   };
   UnionFind sets(n);
   for_each(work, Cost::light, mesh.edge_count(), [&](std::size_t e) {
-    if (cube(mesh.edge_v0[e]) == cube(mesh.edge_v1[e])) sets.unite(mesh.edge_v0[e], mesh.edge_v1[e]);
+    const Index a = mesh.edge_v0[e], b = mesh.edge_v1[e];
+    if (!barrier.empty() && (barrier[a] || barrier[b])) return;
+    if (cube(a) == cube(b)) sets.unite(a, b);
   });
   std::vector<Index> root(n);
   for_each(work, Cost::light, n, [&](std::size_t v) { root[v] = sets.find(static_cast<Index>(v)); });

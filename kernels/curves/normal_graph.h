@@ -1,6 +1,8 @@
 // The surface as a graph of points with area normals, no finer than a given spacing: what turn angles are read from.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/data/csr.h"
@@ -19,6 +21,7 @@ struct NormalGraph {
 };
 
 // A node is a connected set of vertices inside one cube of side `spacing`; with spacing 0 every vertex is a node.
-NormalGraph normal_graph(const Work& work, const MeshView& mesh, Real spacing);
+// Vertices with barrier[v] != 0 (empty: none) stay alone, so that no node reaches across them.
+NormalGraph normal_graph(const Work& work, const MeshView& mesh, std::span<const std::uint8_t> barrier, Real spacing);
 
 }  // namespace intarsia::kernels

@@ -56,8 +56,9 @@ struct Frame {
   Real radius;
 };
 
-Real turn_at(const NormalGraph& graph, const CsrView& neighbours, const TurnOptions& options, const Frame& f,
-             std::span<const Index> start, SeenNodes& seen, std::vector<Index>& queue) {
+Real turn_at(const NormalGraph& graph, const CsrView& neighbours, std::span<const std::uint8_t> barrier,
+             const TurnOptions& options, const Frame& f, std::span<const Index> start, SeenNodes& seen,
+             std::vector<Index>& queue) {
   const Vec3 along = f.normal.cross(f.across);
   const Real reach2 = f.radius * f.radius;
   const Real min2 = options.min_side * options.min_side * reach2, max_along = options.max_along * f.radius;
@@ -66,11 +67,13 @@ Real turn_at(const NormalGraph& graph, const CsrView& neighbours, const TurnOpti
   queue.clear();
   for (Index n : start)
     if (seen.insert(n)) queue.push_back(n);
+  const std::size_t first = queue.size();
   for (std::size_t head = 0; head < queue.size(); ++head) {
     const Index n = queue[head];
+    if (barrier[n] && head >= first) continue;
     const Vec3 x = graph.point[n] - f.p;
     const Real d2 = x.squaredNorm();
-    if (d2 > reach2 && head >= start.size()) continue;  // the nodes next to the point always count
+    if (d2 > reach2 && head >= first) continue;  // the nodes next to the point always count
     const Real s = x.dot(f.across), u = x.dot(along);
     // Distance from the tangent, not along `across`: on both flanks of a narrow fold `across` alone stays small.
     if (std::abs(u) < max_along && d2 - u * u > min2) side[s > 0] += graph.normal[n];
@@ -115,8 +118,16 @@ void turn_angles(const Work& work, const MeshView& mesh, Real edge_length, const
   }
   if (sample.empty()) return;
 
+  std::vector<std::uint8_t> on_sharp(mesh.vertex_count(), 0);
+  for (Index c = 0; c < curves.curve_count(); ++c)
+    if (curves.net.kind[c] == CurveKind::sharp)
+      for (Index p : curves.points_of(c)) on_sharp[curves.net.point[p].element] = 1;
+
   const bool gather = edge_length < 0.8 * options.finest * rho;
-  const NormalGraph graph = normal_graph(work, mesh, gather ? options.finest * rho : 0);
+  const NormalGraph graph = normal_graph(work, mesh, on_sharp, gather ? options.finest * rho : 0);
+  std::vector<std::uint8_t> barrier(graph.point.size(), 0);
+  for (Index v = 0; v < mesh.vertex_count(); ++v)
+    if (on_sharp[v]) barrier[graph.node(v)] = 1;
   const CsrView neighbours = gather ? CsrView(graph.neighbours) : mesh.vertex_vertices;
   std::vector<Real> measured(sample.size());
   for_each_block(work, Cost::heavy, sample.size(), [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -132,7 +143,7 @@ void turn_angles(const Work& work, const MeshView& mesh, Real edge_length, const
       if (at.kind == PointKind::face)
         for (Index v : mesh.face(at.element)) start[n++] = graph.node(v);
       const Frame frame{position(mesh, at), curves.normal[p], curves.across[p], radius_at(p)};
-      measured[k] = turn_at(graph, neighbours, options, frame, {start, n}, seen, queue);
+      measured[k] = turn_at(graph, neighbours, barrier, options, frame, {start, n}, seen, queue);
     }
   });
 

@@ -16,10 +16,11 @@ struct TurnOptions {
   Real min_side = 0.35;        // in rho: samples closer than this to the curve's tangent belong to no side
   Real max_along = 0.6;        // in rho: nor do samples further than this along the curve
   Real sample_step = 0.25;     // in rho: spacing of the points where the angle is measured; linear between them
-  Real finest = 0.1;           // in rho: vertices closer together than this are gathered first
+  Real finest = 0.2;           // in rho: vertices closer together than this are gathered first
 };
 
-// Fills the turn angles of all points on ridges and valleys; sharp curves keep their dihedral turn.
+// Fills the turn angles of all points on ridges and valleys; sharp curves keep their dihedral turn. The walk around a
+// point does not cross sharp curves: what turns there is theirs.
 // Requires: edge_length = mean edge length.
 // Ensures: values in [0, pi]; a side without samples is replaced by the normal at the point.
 void turn_angles(const Work& work, const MeshView& mesh, Real edge_length, const TurnOptions& options,

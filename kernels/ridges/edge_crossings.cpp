@@ -3,21 +3,46 @@
 #include <cmath>
 
 #include "engine/parallel/compact.h"
+#include "engine/parallel/for_each.h"
 
 namespace intarsia::kernels {
 
-CrestFields::CrestFields(const CurvatureFields& f, CurveKind channel)
+CrestFields::CrestFields(const CurvatureFields& f, CurveKind channel, std::span<const Real> smoothed)
     : sign(channel == CurveKind::valley ? -1 : 1), fields(f) {
   const bool valley = channel == CurveKind::valley;
   k_ = valley ? f.kmin : f.kmax;
   other_ = valley ? f.kmax : f.kmin;
-  e_ = valley ? f.emin : f.emax;
+  e_ = !smoothed.empty() ? smoothed : std::span<const Real>(valley ? f.emin : f.emax);
   t_ = valley ? f.tmin : f.tmax;
 }
 
 bool CrestFields::may_carry(Index v) const {
   return k(v) > std::abs(other_k(v)) && fields.direction_ok[v] &&
          (fields.status[v] == FitStatus::full || fields.status[v] == FitStatus::ring_grown);
+}
+
+std::vector<Real> smooth_extremality(const Work& work, const MeshView& mesh, const CurvatureFields& fields,
+                                     CurveKind channel, int rounds) {
+  const bool valley = channel == CurveKind::valley;
+  const Vec3Array& t = valley ? fields.tmin : fields.tmax;
+  std::vector<Real> e = valley ? fields.emin : fields.emax, next(e.size());
+  for (int round = 0; round < rounds; ++round) {
+    for_each(work, Cost::medium, e.size(), [&](std::size_t i) {
+      next[i] = e[i];
+      if (!fields.direction_ok[i]) return;
+      const Vec3 ti = t[i];
+      Real sum = e[i], weight = 1;
+      for (Index w : mesh.vertex_vertices.row(static_cast<Index>(i))) {
+        if (!fields.direction_ok[w]) continue;
+        // |cos| as the weight: neighbours whose direction has little to say about this one count little.
+        const Real cosine = ti.dot(t[w]);
+        sum += cosine * e[w], weight += std::abs(cosine);
+      }
+      next[i] = sum / weight;
+    });
+    e.swap(next);
+  }
+  return e;
 }
 
 namespace {

@@ -15,7 +15,8 @@ namespace intarsia::kernels {
 // The fields of one channel. Valleys are the ridges of the reversed surface, which has
 // (k_max, k_min, t_max, t_min, e_max, e_min) -> (-k_min, -k_max, t_min, t_max, -e_min, -e_max).
 struct CrestFields {
-  CrestFields(const CurvatureFields& fields, CurveKind channel);
+  // `smoothed`, where not empty, takes the place of e_max (valleys: e_min); see smooth_extremality().
+  CrestFields(const CurvatureFields& fields, CurveKind channel, std::span<const Real> smoothed = {});
 
   Real k(Index v) const { return sign * k_[v]; }  // curvature across the crest, the larger one
   Real other_k(Index v) const { return sign * other_[v]; }
@@ -31,6 +32,12 @@ struct CrestFields {
   std::span<const Real> k_, other_, e_;
   Vec3View t_;
 };
+
+// The channel's extremality after `rounds` of averaging with the neighbours' values, turned to agree in direction
+// (after Hildebrandt, Polthier, Wardetzky 2005). It is odd across a crest, so the crest stays where it is.
+// Ensures: with the sign of e_max (valleys: e_min) of the fields; vertices without direction keep their value.
+std::vector<Real> smooth_extremality(const Work& work, const MeshView& mesh, const CurvatureFields& fields,
+                                     CurveKind channel, int rounds);
 
 struct CrossingOptions {
   bool symbolic_zeros = true;  // |e| rho^2 < zero counts as a positive sign at its own vertex; off: strict signs

@@ -134,8 +134,10 @@ std::vector<Index> merge_at_vertices(const Work& work, const FeatureCurves& poin
 }  // namespace
 
 FeatureCurves trace_ridges(const Work& work, const MeshView& mesh, const CurvatureFields& fields, CurveKind channel,
-                           std::span<const std::uint8_t> suppressed, const TraceOptions& options) {
-  const CrestFields crest(fields, channel);
+                           std::span<const std::uint8_t> suppressed, const RidgeOptions& options) {
+  std::vector<Real> smoothed;
+  if (options.smoothing > 0) smoothed = smooth_extremality(work, mesh, fields, channel, options.smoothing);
+  const CrestFields crest(fields, channel, smoothed), measured(fields, channel);
   const EdgeCrossings crossings = edge_crossings(work, mesh, crest, suppressed, options.crossing);
   const SegmentGraph graph = face_segments(work, mesh, crossings.edge);
   const Index nodes = graph.node_count();
@@ -143,7 +145,8 @@ FeatureCurves trace_ridges(const Work& work, const MeshView& mesh, const Curvatu
   FeatureCurves out;
   out.resize_points(nodes);
   for_each(work, Cost::medium, crossings.size(), [&](std::size_t i) {
-    fill_crossing(mesh, crest, crossings.edge[i], crossings.position[i], static_cast<Index>(i), out);
+    // Not the smoothed extremality: that would blunt what `sharpness` is to tell.
+    fill_crossing(mesh, measured, crossings.edge[i], crossings.position[i], static_cast<Index>(i), out);
   });
   std::vector<Index> centre_crossing(3 * graph.centre_face.size(), kNone);
   for (Index s = 0; s < graph.segment_count(); ++s) {

@@ -12,10 +12,18 @@
 
 namespace intarsia::kernels {
 
-struct TraceOptions {
+struct RidgeOptions {
   CrossingOptions crossing;
+  int smoothing = 1;             // rounds of averaging of the extremality; paper mode: 0
   bool centre_of_points = true;  // where three lines meet in a face: mean of the three points; off: face barycentre
   Real straight = 1.0471975511965976;  // radians; the straightest two of three lines go through if they turn by less
+
+  static RidgeOptions paper() {
+    RidgeOptions o;
+    o.smoothing = 0;
+    o.centre_of_points = false;
+    return o;
+  }
 };
 
 // One channel (ridge or valley) of the surface. Nothing is filtered. Turn angles and measures are not filled.
@@ -23,6 +31,6 @@ struct TraceOptions {
 // Ensures: every point lies on a vertex, an edge or in a face with three crossings; curves that pass the same vertex
 // share its point; consecutive points lie in a common face and differ.
 FeatureCurves trace_ridges(const Work& work, const MeshView& mesh, const CurvatureFields& fields, CurveKind channel,
-                           std::span<const std::uint8_t> suppressed, const TraceOptions& options);
+                           std::span<const std::uint8_t> suppressed, const RidgeOptions& options);
 
 }  // namespace intarsia::kernels
