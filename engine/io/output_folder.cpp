@@ -24,12 +24,17 @@ fs::file_type type_of(const fs::path& path) {
 bool is_there(const fs::path& path) { return type_of(path) != fs::file_type::not_found; }
 bool is_folder(const fs::path& path) { return type_of(path) == fs::file_type::directory; }
 
-void make_durable(const fs::path& path) {
+// 0 or the reason why not.
+int sync(const fs::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  const bool failed = file < 0 || (::fsync(file) != 0 && errno != EINVAL && errno != EROFS);
-  const int reason = errno;
-  if (file >= 0) ::close(file);
-  if (failed) throw_write_failed(path, "cannot be written", reason);
+  if (file < 0) return errno;
+  const int reason = ::fsync(file) == 0 || errno == EINVAL || errno == EROFS ? 0 : errno;
+  ::close(file);
+  return reason;
+}
+
+void make_durable(const fs::path& path) {
+  if (const int reason = sync(path); reason != 0) throw_write_failed(path, "cannot be written", reason);
 }
 
 std::vector<fs::directory_entry> list(const fs::path& folder, std::error_code& error) {
@@ -137,8 +142,8 @@ void OutputFolder::commit() {
         throw_write_failed(entry.path(), "is a folder, but a result of that name is to be written; move it away", 0);
     exchange();
   }
-  make_durable(parent_);
-  recover();  // folders that could not be emptied while the target was missing
+  sync(parent_);  // the results are in place, whether or not that worked
+  recover();      // folders that could not be emptied while the target was missing
 }
 
 // Ensures: the results stand at target_, what was not ours has moved over, and the rest of what was there is gone; or,
