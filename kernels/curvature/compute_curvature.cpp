@@ -12,6 +12,15 @@ namespace intarsia::kernels {
 
 namespace {
 
+struct RingScratch {
+  RingWalker walker;
+  PointBatch batch;
+};
+struct DiscScratch {
+  DiscWalker walker;
+  PointBatch batch;
+};
+
 void store(std::size_t v, const Frame& frame, const VertexFit& fit, const CurvatureOptions& o, CurvatureFields& out) {
   const PrincipalCurvature k = principal_curvature(fit.cubic);
   const bool valid = fit.status != FitStatus::invalid;
@@ -35,10 +44,10 @@ bool has_normal(const Vec3& n) { return n.squaredNorm() > 0.5; }
 
 void fit_in_rings(const Work& work, const MeshView& mesh, std::span<const std::uint8_t> fit_ring, bool with_discs,
                   std::span<const std::uint8_t> barrier, const CurvatureOptions& o, CurvatureFields& out) {
-  auto pool = make_scratch_pool([&] { return RingWalker(mesh, barrier); });
+  auto pool = make_scratch_pool([&] { return RingScratch{RingWalker(mesh, barrier), {}}; });
   const Vec3View normal = out.normal;
   for_each_block(work, Cost::medium, mesh.vertex_count(), [&](std::size_t begin, std::size_t end, std::size_t) {
-    const auto walker = pool.borrow();
+    const auto scratch = pool.borrow();
     for (std::size_t v = begin; v < end; ++v) {
       if (with_discs && is_disc(fit_ring[v])) continue;
       const int ring = std::min<int>(fit_ring[v], kRings);
@@ -48,7 +57,9 @@ void fit_in_rings(const Work& work, const MeshView& mesh, std::span<const std::u
         continue;
       }
       const Frame frame(n);
-      store(v, frame, fit_rings(mesh, normal, static_cast<Index>(v), frame, ring, 7, o.fit, *walker), o, out);
+      store(v, frame,
+            fit_rings(mesh, normal, static_cast<Index>(v), frame, ring, 7, o.fit, scratch->walker, scratch->batch), o,
+            out);
     }
   });
 }
@@ -59,8 +70,8 @@ void fit_in_discs(const Work& work, const MeshView& mesh, std::span<const std::u
   const Vec3View normal = out.normal;
   const std::vector<Vec3Array> sample_normal = sample_normals(work, mesh, levels, normal);
   const SampleLevel& base = levels.level[0];
-  auto discs = make_scratch_pool([&] { return DiscWalker(levels); });
-  auto rings = make_scratch_pool([&] { return RingWalker(mesh, barrier); });
+  auto discs = make_scratch_pool([&] { return DiscScratch{DiscWalker(levels), {}}; });
+  auto rings = make_scratch_pool([&] { return RingScratch{RingWalker(mesh, barrier), {}}; });
   for_each_block(work, Cost::medium, base.size(), [&](std::size_t begin, std::size_t end, std::size_t) {
     const auto disc = discs.borrow();
     for (std::size_t i = begin; i < end; ++i) {
@@ -68,9 +79,12 @@ void fit_in_discs(const Work& work, const MeshView& mesh, std::span<const std::u
       for (Index v : base.member.row(c)) {
         if (!is_disc(fit_ring[v])) continue;
         const Frame frame(has_normal(normal[v]) ? normal[v] : Vec3(Vec3::UnitZ()));
-        VertexFit fit = fit_disc(mesh, levels, sample_normal, v, c, fit_ring[v], frame, o.fit, *disc);
-        if (fit.status == FitStatus::invalid && has_normal(normal[v]))
-          fit = fit_rings(mesh, normal, v, frame, kRings, 7, o.fit, *rings.borrow());
+        VertexFit fit =
+            fit_disc(mesh, levels, sample_normal, v, c, fit_ring[v], frame, o.fit, disc->walker, disc->batch);
+        if (fit.status == FitStatus::invalid && has_normal(normal[v])) {
+          const auto ring = rings.borrow();
+          fit = fit_rings(mesh, normal, v, frame, kRings, 7, o.fit, ring->walker, ring->batch);
+        }
         store(v, frame, fit, o, out);
       }
     }

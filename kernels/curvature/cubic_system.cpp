@@ -135,7 +135,89 @@ bool solve_into(const CubicSums& sums, Real least_pivot, CubicFit& fit) {
   return true;
 }
 
+// Points in the frame. Rejected points have weight 0 and all else 0.
+struct FramedPoints {
+  const Real *x, *y, *z, *p, *q, *w;
+};
+
+// The 28 moments, and those weighted by height and slopes, each as eight partial sums.
+INTARSIA_WIDE void accumulate(const FramedPoints& points, std::size_t count, CubicSums& sums) {
+  Lanes moment[28] = {}, height[10] = {}, slope_x[6] = {}, slope_y[6] = {};
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const Lanes x = lanes_at(points.x + i), y = lanes_at(points.y + i);
+    Lanes row[7];  // w x^(degree - j) y^j of the current degree
+    row[0] = lanes_at(points.w + i);
+    moment[0] += row[0];
+    std::size_t at = 1;
+    for (std::size_t degree = 1; degree <= 6; ++degree) {
+      row[degree] = row[degree - 1] * y;
+      for (std::size_t j = 0; j < degree; ++j) row[j] = row[j] * x;
+      for (std::size_t j = 0; j <= degree; ++j) moment[at + j] += row[j];
+      at += degree + 1;
+    }
+  }
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const Lanes x = lanes_at(points.x + i), y = lanes_at(points.y + i), w = lanes_at(points.w + i);
+    const Lanes m[10] = {w,         w * x,         w * y,         w * x * x,     w * x * y,
+                         w * y * y, w * x * x * x, w * x * x * y, w * x * y * y, w * y * y * y};
+    const Lanes z = lanes_at(points.z + i), p = lanes_at(points.p + i), q = lanes_at(points.q + i);
+    for (std::size_t j = 0; j < 10; ++j) height[j] += m[j] * z;
+    for (std::size_t j = 0; j < 6; ++j) slope_x[j] += m[j] * p;
+    for (std::size_t j = 0; j < 6; ++j) slope_y[j] += m[j] * q;
+  }
+  for (std::size_t j = 0; j < 28; ++j) sums.moment[j] += sum_of(moment[j]);
+  for (std::size_t j = 0; j < 10; ++j) sums.height[j] += sum_of(height[j]);
+  for (std::size_t j = 0; j < 6; ++j) sums.slope_x[j] += sum_of(slope_x[j]);
+  for (std::size_t j = 0; j < 6; ++j) sums.slope_y[j] += sum_of(slope_y[j]);
+}
+
+// Into the frame, in place; returns the number of points accepted.
+INTARSIA_WIDE Index into_frame(PointBatch& batch, const Vec3& u, const Vec3& v, const Vec3& n, Real gate, Rows rows,
+                               Real& distance) {
+  const Real ux = u.x(), uy = u.y(), uz = u.z(), vx = v.x(), vy = v.y(), vz = v.z();
+  const Real wx = n.x(), wy = n.y(), wz = n.z();
+  const Lanes zero{};
+  Lanes accepted{}, far{};
+  for (std::size_t i = 0; i < batch.count; i += kLanes) {
+    Lanes &dx = lanes_at(batch.x.data() + i), &dy = lanes_at(batch.y.data() + i), &dz = lanes_at(batch.z.data() + i);
+    Lanes &nx = lanes_at(batch.nx.data() + i), &ny = lanes_at(batch.ny.data() + i), &nz = lanes_at(batch.nz.data() + i);
+    Lanes& weight = lanes_at(batch.weight.data() + i);
+    const Lanes c = nx * wx + ny * wy + nz * wz;
+    const auto use = c >= gate;
+    const Lanes x = dx * ux + dy * uy + dz * uz, y = dx * vx + dy * vy + dz * vz, z = dx * wx + dy * wy + dz * wz;
+    const Lanes a = nx * ux + ny * uy + nz * uz, b = nx * vx + ny * vy + nz * vz;
+    Lanes length = dx * dx + dy * dy + dz * dz;
+    for (std::size_t l = 0; l < kLanes; ++l) length[l] = std::sqrt(length[l]);
+    const Lanes level = use ? c : zero + 1.0;
+    const Lanes scale = rows == Rows::round ? zero + 1.0 : 1.0 / level;
+    const Lanes lift = rows == Rows::round ? (level + 1.0) / 2.0 : zero + 1.0;
+    weight = use ? weight : zero;
+    accepted += weight > zero ? zero + 1.0 : zero;
+    far += weight * length;
+    dx = use ? x : zero, dy = use ? y : zero, dz = use ? z * lift : zero;
+    nx = use ? -a * scale : zero, ny = use ? -b * scale : zero;
+  }
+  distance += sum_of(far);
+  return static_cast<Index>(sum_of(accepted));
+}
+
 }  // namespace
+
+void CubicSums::add(Real x, Real y, Real z, Real p, Real q, Real w, Real d) {
+  alignas(64) Real value[6][kLanes] = {{x}, {y}, {z}, {p}, {q}, {w}};
+  accumulate({value[0], value[1], value[2], value[3], value[4], value[5]}, kLanes, *this);
+  distance += w * d;
+  ++count;
+}
+
+void add_points(PointBatch& batch, const Vec3& u, const Vec3& v, const Vec3& n, Real gate, Rows rows, CubicSums& sums) {
+  const std::size_t whole = whole_lanes(batch.count);
+  for (LaneArray* a : {&batch.x, &batch.y, &batch.z, &batch.nx, &batch.ny, &batch.nz, &batch.weight})
+    for (std::size_t i = batch.count; i < whole; ++i) a->data()[i] = 0;
+  sums.count += into_frame(batch, u, v, n, gate, rows, sums.distance);
+  accumulate({batch.x.data(), batch.y.data(), batch.z.data(), batch.nx.data(), batch.ny.data(), batch.weight.data()},
+             whole, sums);
+}
 
 bool solve_cubic(const CubicSums& sums, std::size_t terms, Real least_pivot, CubicFit& fit) {
   switch (terms) {

@@ -8,7 +8,9 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
+#include "engine/base/lanes.h"
 #include "engine/base/types.h"
 
 namespace intarsia::kernels {
@@ -24,25 +26,43 @@ struct CubicSums {
   Real distance = 0;  // sum of w times the 3D distance from the centre
   Index count = 0;
 
-  void add(Real x, Real y, Real z, Real p, Real q, Real w, Real d) {
-    std::array<Real, 28> m;
-    m[0] = w;
-    std::size_t at = 1, below = 0;
-    for (std::size_t degree = 1; degree <= 6; ++degree) {
-      for (std::size_t j = 0; j < degree; ++j) m[at + j] = m[below + j] * x;
-      m[at + degree] = m[below + degree - 1] * y;
-      below = at, at += degree + 1;
-    }
-    for (std::size_t i = 0; i < 28; ++i) moment[i] += m[i];
-    for (std::size_t i = 0; i < 10; ++i) height[i] += m[i] * z;
-    for (std::size_t i = 0; i < 6; ++i) slope_x[i] += m[i] * p;
-    for (std::size_t i = 0; i < 6; ++i) slope_y[i] += m[i] * q;
-    distance += w * d;
-    ++count;
-  }
+  // One point; for tests and small sets. w > 0.
+  void add(Real x, Real y, Real z, Real p, Real q, Real w, Real d);
   // The unit of the fit: weighted mean 3D distance of the points.
   Real unit() const { return moment[0] > 0 ? distance / moment[0] : 0; }
 };
+
+// Points gathered around a centre, side by side.
+struct PointBatch {
+  LaneArray x, y, z;     // offset from the centre
+  LaneArray nx, ny, nz;  // unit normal
+  LaneArray weight;
+  std::size_t count = 0;
+
+  void clear() { count = 0; }
+  void reserve(std::size_t n) {
+    if (x.size() < n + kLanes)
+      for (LaneArray* a : {&x, &y, &z, &nx, &ny, &nz, &weight}) a->resize(2 * n + kLanes);
+  }
+  // Requires: room for it.
+  void push(const Vec3& offset, const Vec3& normal, Real w) {
+    x.data()[count] = offset.x(), y.data()[count] = offset.y(), z.data()[count] = offset.z();
+    nx.data()[count] = normal.x(), ny.data()[count] = normal.y(), nz.data()[count] = normal.z();
+    weight.data()[count++] = w;
+  }
+};
+
+// How a point's normal (a, b, c) and height z in the frame become rows.
+enum class Rows : std::uint8_t {
+  slopes,  // -a/c, -b/c and z, as in the paper. On a sphere they grow faster than any cubic.
+  round,   // -a, -b and z (1 + c)/2: exactly linear and quadratic on spheres and cylinders, and equal to the paper's up
+          // to the order that curvature and extremality at the centre are made of
+};
+
+// Adds the batch, seen in the frame (u, v, n), to the sums. Points with c < gate are left out. Eight partial sums are
+// kept side by side, so the result depends on the order of the points only. Fills the batch up to whole lanes.
+// Requires: gate > 0.
+void add_points(PointBatch& batch, const Vec3& u, const Vec3& v, const Vec3& n, Real gate, Rows rows, CubicSums& sums);
 
 // Coefficients in the units of the points.
 struct CubicFit {

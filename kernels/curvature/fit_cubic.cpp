@@ -10,13 +10,10 @@ namespace intarsia::kernels {
 
 namespace {
 
-// Adds the point at offset d with normal m, in the frame. The slope rows divide by the normal component of m.
-void add_point(const Frame& frame, const Vec3& d, const Vec3& m, Real weight, Real gate, CubicSums& sums) {
-  const Real up = frame.n.dot(m);
-  if (!(up >= gate)) return;
-  sums.add(frame.u.dot(d), frame.v.dot(d), frame.n.dot(d), -frame.u.dot(m) / up, -frame.v.dot(m) / up, weight,
-           d.norm());
-}
+struct Scratch {
+  RingWalker walker;
+  PointBatch batch;
+};
 
 }  // namespace
 
@@ -28,7 +25,7 @@ Frame::Frame(const Vec3& normal) : n(normal) {
 }
 
 VertexFit fit_rings(const MeshView& mesh, const Vec3View& normal, Index v, const Frame& frame, int ring,
-                    std::size_t terms, const FitOptions& options, RingWalker& walker) {
+                    std::size_t terms, const FitOptions& options, RingWalker& walker, PointBatch& batch) {
   const Vec3 centre = mesh.point(v);
   CubicSums sums;
   VertexFit fit;
@@ -36,10 +33,13 @@ VertexFit fit_rings(const MeshView& mesh, const Vec3View& normal, Index v, const
   std::size_t used = 0;
   const auto add_walked = [&] {
     const auto points = walker.vertices(walker.depth());
+    batch.clear();
+    batch.reserve(points.size() - used);
     for (; used < points.size(); ++used) {
       const Index q = points[used];
-      add_point(frame, mesh.point(q) - centre, normal[q], 1, options.normal_gate, sums);
+      batch.push(mesh.point(q) - centre, normal[q], 1);
     }
+    add_points(batch, frame.u, frame.v, frame.n, options.normal_gate, options.rows, sums);
   };
   const auto accept = [&](std::size_t with, FitStatus status) {
     if (sums.count < 3 || !solve_cubic(sums, with, options.least_pivot, fit.cubic)) return false;
@@ -85,25 +85,32 @@ std::vector<Vec3Array> sample_normals(const Work& work, const MeshView& mesh, co
 }
 
 VertexFit fit_disc(const MeshView& mesh, const SampleLevels& levels, std::span<const Vec3Array> sample_normal, Index v,
-                   Index c, int code, const Frame& frame, const FitOptions& options, DiscWalker& walker) {
+                   Index c, int code, const Frame& frame, const FitOptions& options, DiscWalker& walker,
+                   PointBatch& batch) {
   const Real radius = disc_radius(code);
   const Vec3 centre = mesh.point(v);
   const DiscWalker::Samples samples = walker.around(c, code);
   const SampleLevel& level = levels.level[samples.level];
   const Vec3Array& normal = sample_normal[samples.level];
   const Real limit = radius + 0.5 * samples.cell;
-  CubicSums sums;
+  batch.clear();
+  batch.reserve(samples.id.size());
   for (Index s : samples.id) {
     const Vec3 d = level.centre[s] - centre;
     const Real squared = d.squaredNorm();
     if (squared >= limit * limit) continue;
     const Real weight = level.area[s] * ramp(std::sqrt(squared), radius, samples.cell);
-    add_point(frame, d, normal[s], weight, options.disc_gate, sums);
+    batch.push(d, normal[s], weight);
   }
+  CubicSums sums;
+  add_points(batch, frame.u, frame.v, frame.n, options.disc_gate, Rows::round, sums);
   VertexFit fit;
   fit.radius = sums.unit();
   fit.ring = code;
-  if (sums.count >= 5 && solve_cubic(sums, 10, options.least_pivot, fit.cubic)) fit.status = FitStatus::full;
+  if (sums.count >= 5 && solve_cubic(sums, 10, options.least_pivot, fit.cubic)) {
+    fit.status = FitStatus::full;
+    fit.cubic.gradient = {0, 0};  // to first order the rows above already give the values of the adapted frame
+  }
   return fit;
 }
 
@@ -111,16 +118,17 @@ void refine_normals(const Work& work, const MeshView& mesh, const Vec3View& norm
                     std::span<const std::uint8_t> fit_ring, std::span<const std::uint8_t> barrier,
                     const FitOptions& options, Vec3Array& normal_out) {
   normal_out.resize(mesh.vertex_count());
-  auto pool = make_scratch_pool([&] { return RingWalker(mesh, barrier); });
+  auto pool = make_scratch_pool([&] { return Scratch{RingWalker(mesh, barrier), {}}; });
   for_each_block(work, Cost::medium, mesh.vertex_count(), [&](std::size_t begin, std::size_t end, std::size_t) {
-    const auto walker = pool.borrow();
+    const auto scratch = pool.borrow();
     for (std::size_t v = begin; v < end; ++v) {
       const Vec3 old = normal_in[v];
       normal_out.set(v, old);
       if (!(old.squaredNorm() > 0.5)) continue;
       const Frame frame(old);
       const int ring = is_disc(fit_ring[v]) ? options.refine_ring : fit_ring[v];
-      const VertexFit fit = fit_rings(mesh, normal_in, static_cast<Index>(v), frame, ring, 9, options, *walker);
+      const VertexFit fit =
+          fit_rings(mesh, normal_in, static_cast<Index>(v), frame, ring, 9, options, scratch->walker, scratch->batch);
       const auto [g1, g2] = fit.cubic.gradient;
       if (fit.status == FitStatus::full || fit.status == FitStatus::ring_grown)
         if (g1 * g1 + g2 * g2 < 1) normal_out.set(v, (frame.n - g1 * frame.u - g2 * frame.v).normalized());

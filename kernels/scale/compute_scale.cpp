@@ -1,6 +1,7 @@
 #include "kernels/scale/compute_scale.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/data/disc_walk.h"
 #include "engine/parallel/for_each.h"
@@ -56,17 +57,28 @@ std::uint8_t choose_disc_of(const LevelBuild& build, Index c, const ScaleOptions
   std::array<Real, kDiscs> variation;
   std::size_t n = 0;
   for (int code = first; code <= kLastDisc; ++code) {
-    if (n >= 2 && disc_radius(code) > o.largest_disc * 1.000001) break;
+    if (disc_radius(code) > o.largest_disc * 1.000001) break;
     variation[n++] = disc_variation(build, c, code, walker);
     if (variation[n - 1] >= o.select.bent) break;
   }
   return static_cast<std::uint8_t>(choose_disc(std::span(variation).first(n), first, o.select));
 }
 
+// What a vertex is fitted in where nothing bends up to the largest disc.
+std::uint8_t flat_fit(Real spacing, const ScaleOptions& o) {
+  constexpr Real kRingWidth = 0.87;  // of a spacing
+  constexpr long kMostRings = 4;
+  const long rings = std::lround(std::min(o.flat_reach / (kRingWidth * spacing), Real(1000)));
+  if (rings <= kMostRings) return static_cast<std::uint8_t>(std::max<long>(rings, o.select.least_fit));
+  int code = kFirstDisc;
+  while (code < kLastDisc && disc_radius(code) < o.flat_reach) ++code;
+  return static_cast<std::uint8_t>(code);
+}
+
 // Discs for flat vertices; vertices that six rings call bent keep their rings.
 void choose_discs(const Work& work, const MeshView& mesh, std::span<const FaceRecord> faces, const ScaleOptions& o,
                   const Codes& flat, ScaleFields& out) {
-  LevelBuild build = build_sample_levels(work, mesh, faces, disc_radius(kLastDisc));
+  LevelBuild build = build_sample_levels(work, mesh, faces, o.largest_disc);
   if (build.levels.level.empty()) return;
   const SampleLevel& base = build.levels.level[0];
   Codes code(mesh.vertex_count(), 0), smooth(mesh.vertex_count());
@@ -84,7 +96,8 @@ void choose_discs(const Work& work, const MeshView& mesh, std::span<const FaceRe
   });
   median_over_neighbours(work, mesh.vertex_vertices, code, smooth);
   for_each(work, Cost::light, smooth.size(), [&](std::size_t v) {
-    if (smooth[v]) out.fit_ring[v] = smooth[v];
+    if (!flat[v]) return;
+    out.fit_ring[v] = smooth[v] ? smooth[v] : std::max(out.fit_ring[v], flat_fit(base.spacing[base.parent[v]], o));
   });
   out.levels = std::move(build.levels);
 }

@@ -11,30 +11,23 @@ namespace {
 
 constexpr Real kDegenerateArea = 1e-14;
 
-// Taylor series about t = 1/2: the remainder of degree 14 on |t - 1/2| <= 1/2 is below 3e-17.
-constexpr int kDecayTerms = 14;
-constexpr std::array<Real, kDecayTerms> decay_coefficients() {
-  std::array<Real, kDecayTerms> c{};
-  Real term = 0.60653065971263342360;  // exp(-1/2)
-  for (int i = 0; i < kDecayTerms; ++i) {
-    c[i] = term;
-    term /= -(i + 1);
+// Weights and tensor of the first `count` faces (whole lanes; faces of area 0 fill up). The weights stay for
+// first_moment_variation.
+INTARSIA_WIDE void vote(std::size_t count, Real inverse_reach, const Real* distance, const Real* area, const Real* nx,
+                        const Real* ny, const Real* nz, Real* weight, Tensor& tensor) {
+  Lanes xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const Lanes u = lanes_at(distance + i) * inverse_reach - 0.5;
+    Lanes w = u * kDecay[kDecayTerms - 1] + kDecay[kDecayTerms - 2];
+    for (std::size_t j = kDecayTerms - 2; j-- > 0;) w = w * u + kDecay[j];
+    w = w * lanes_at(area + i);
+    lanes_at(weight + i) = w;
+    const Lanes x = lanes_at(nx + i), y = lanes_at(ny + i), z = lanes_at(nz + i);
+    const Lanes wx = w * x, wy = w * y, wz = w * z;
+    xx += wx * x, xy += wx * y, xz += wx * z;
+    yy += wy * y, yz += wy * z, zz += wz * z;
   }
-  return c;
-}
-constexpr auto kDecay = decay_coefficients();
-
-// Weights and tensor of the first `count` faces; the weights stay for first_moment_variation.
-Tensor collect(const VotingScratch& s, std::size_t count, Real inverse_reach, std::vector<Real>& weight) {
-  for (std::size_t i = 0; i < count; ++i) weight[i] = s.area[i] * decay(s.distance[i] * inverse_reach);
-  Tensor t{};
-  for (std::size_t i = 0; i < count; ++i) {
-    const Real w = weight[i], x = s.nx[i], y = s.ny[i], z = s.nz[i];
-    const Real wx = w * x, wy = w * y;
-    t[0] += wx * x, t[1] += wx * y, t[2] += wx * z;
-    t[3] += wy * y, t[4] += wy * z, t[5] += w * z * z;
-  }
-  return t;
+  tensor = {sum_of(xx), sum_of(xy), sum_of(xz), sum_of(yy), sum_of(yz), sum_of(zz)};
 }
 
 // 1/m^2 - 1 with m = |sum mu n| / sum mu; the weights are those of collect().
@@ -42,8 +35,8 @@ Real first_moment_variation(const VotingScratch& s, std::size_t count) {
   Vec3 moment = Vec3::Zero();
   Real total = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    moment += s.weight[i] * Vec3(s.nx[i], s.ny[i], s.nz[i]);
-    total += s.weight[i];
+    moment += s.weight.data()[i] * Vec3(s.nx.data()[i], s.ny.data()[i], s.nz.data()[i]);
+    total += s.weight.data()[i];
   }
   const Real squared = moment.squaredNorm();
   if (!(total > 0)) return 0;
@@ -52,13 +45,6 @@ Real first_moment_variation(const VotingScratch& s, std::size_t count) {
 }
 
 }  // namespace
-
-Real decay(Real t) {
-  const Real u = t - 0.5;
-  Real sum = kDecay[kDecayTerms - 1];
-  for (int i = kDecayTerms - 2; i >= 0; --i) sum = sum * u + kDecay[i];
-  return sum;
-}
 
 std::vector<FaceRecord> face_records(const Work& work, const MeshView& mesh) {
   std::vector<FaceRecord> record(mesh.face_count());
@@ -99,33 +85,38 @@ Variation variation_of(const MeshView& mesh, std::span<const FaceRecord> faces, 
   walker.walk(v, kRings - 1, RingWalker::kTensorCap);
   walker.collect_faces(kRings);
   const auto around = walker.faces(kRings);
-  if (s.area.size() < around.size())
-    for (auto* a : {&s.distance, &s.weight, &s.area, &s.nx, &s.ny, &s.nz}) a->resize(2 * around.size());
+  if (s.area.size() < around.size() + kLanes)
+    for (auto* a : {&s.distance, &s.weight, &s.area, &s.nx, &s.ny, &s.nz}) a->resize(2 * around.size() + kLanes);
+  Real *distance = s.distance.data(), *area = s.area.data();
+  Real *nx = s.nx.data(), *ny = s.ny.data(), *nz = s.nz.data();
 
   const Vec3 centre = mesh.point(v);
   std::size_t count = 0;
-  Real reach = 0;         // max |c_f - P| so far
+  Real reach = 0;         // max |c_f - P|^2 so far
   Real least_cosine = 1;  // against the first normal: a bound for the first moment
   for (int k = 1; k <= kRings; ++k) {
     const std::size_t listed = walker.faces(k).size();
     for (std::size_t i = k == 1 ? 0 : walker.faces(k - 1).size(); i < listed; ++i) {
       const FaceRecord& f = faces[around[i]];
       if (f.area <= 0) continue;
-      const Real d = (f.centroid - centre).norm();
-      reach = std::max(reach, d);
-      s.distance[count] = d, s.area[count] = f.area;
-      s.nx[count] = f.normal.x(), s.ny[count] = f.normal.y(), s.nz[count] = f.normal.z();
-      least_cosine = std::min(least_cosine, f.normal.x() * s.nx[0] + f.normal.y() * s.ny[0] + f.normal.z() * s.nz[0]);
+      const Real squared = (f.centroid - centre).squaredNorm();
+      reach = std::max(reach, squared);
+      distance[count] = std::sqrt(squared), area[count] = f.area;
+      nx[count] = f.normal.x(), ny[count] = f.normal.y(), nz[count] = f.normal.z();
+      least_cosine = std::min(least_cosine, nx[count] * nx[0] + ny[count] * ny[0] + nz[count] * nz[0]);
       ++count;
     }
     if (count == 0) continue;
-    const Tensor votes = collect(s, count, reach > 0 ? 1 / reach : 0, s.weight);
-    const Real omega = variation_of_tensor(votes);
-    out.omega[k - 1] = out.folded[k - 1] = omega;
+    for (std::size_t i = count; i < whole_lanes(count); ++i) area[i] = distance[i] = nx[i] = ny[i] = nz[i] = 0;
+    Tensor tensor;
+    vote(whole_lanes(count), reach > 0 ? 1 / std::sqrt(reach) : 0, distance, area, nx, ny, nz, s.weight.data(), tensor);
+    const Real omega = variation_of_tensor(tensor);
+    const auto at = static_cast<std::size_t>(k - 1);
+    out.omega[at] = out.folded[at] = omega;
     // The moment is at least the smallest cosine against any axis: above sqrt(1/2) its variation stays below 1.
     if (fold_guard && least_cosine < 0.7072) {
       const Real first = first_moment_variation(s, count);
-      if (first > 1) out.folded[k - 1] = std::max(omega, first);
+      if (first > 1) out.folded[at] = std::max(omega, first);
     }
   }
   return out;
