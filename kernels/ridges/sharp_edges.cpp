@@ -41,6 +41,20 @@ Fold fold_at(const MeshView& mesh, Index e) {
   return fold;
 }
 
+// Median turn of the other edges of the faces around both ends: 0 beside a crease, about the noise on a rough surface.
+float median_turn_around(const MeshView& mesh, std::span<const float> turn, Index e) {
+  constexpr std::size_t kMost = 192;  // a few times the usual 26; poles of high valence need no more
+  float around[kMost];
+  std::size_t n = 0;
+  for (Index v : {mesh.edge_v0[e], mesh.edge_v1[e]})
+    for (Index f : mesh.vertex_faces.row(v))
+      for (int i = 0; i < 3 && n < kMost; ++i)
+        if (mesh.face_edge[3 * f + i] != e) around[n++] = turn[mesh.face_edge[3 * f + i]];
+  if (n == 0) return 0;
+  std::nth_element(around, around + n / 2, around + n);
+  return around[n / 2];
+}
+
 Vec3 direction(const MeshView& mesh, Index e, Index from) {
   return (mesh.point(mesh.other_vertex(e, from)) - mesh.point(from)).normalized();
 }
@@ -98,7 +112,9 @@ SharpEdges sharp_edges(const Work& work, const MeshView& mesh, Real edge_length,
            [&](std::size_t e) { turn[e] = static_cast<float>(fold_at(mesh, static_cast<Index>(e)).turn); });
   // A hair of slack, so that a cube with rounded coordinates at exactly the limit is one thing or the other as a whole.
   const Real weak = options.weak - 1e-6, strong = options.strong - 1e-6;
-  const auto candidate = compact(work, turn.size(), [&](std::size_t e) { return turn[e] >= weak; });
+  const auto candidate = compact(work, turn.size(), [&](std::size_t e) {
+    return turn[e] >= weak && turn[e] >= options.relative * median_turn_around(mesh, turn, static_cast<Index>(e));
+  });
   std::vector<Fold> fold(candidate.size());
   std::vector<std::uint8_t> sharp(candidate.size());
   std::vector<Index> slot_of_edge(candidate.empty() ? 0 : mesh.edge_count(), kNone);

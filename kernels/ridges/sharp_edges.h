@@ -15,6 +15,7 @@ struct SharpOptions {
   bool enabled = true;                      // paper mode: off
   Real strong = 1.0471975511965976;         // dihedral turning that makes an edge sharp
   Real weak = 0.52359877559829882;          // enough for an edge that continues a sharp chain
+  Real relative = 3;                        // times the median turn of the edges around: rough is not sharp
   Real continuation = 0.78539816339744831;  // largest turn of the chain where a weak edge continues it
   Real corner = 0.78539816339744831;        // a chain is cut where it turns by more
   Index min_edges = 4;                      // a connected set of sharp edges must have as many edges ...
