@@ -1,5 +1,8 @@
 #include "kernels/curves/connect_features.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "kernels/curves/tidy_curves.h"
 
 namespace intarsia::kernels {
@@ -37,7 +40,10 @@ FeatureCurves connect_features(const Work& work, const MeshView& mesh, Real edge
   join_ends(work, mesh, edge_length, options.join, curves);
   trim_tails(work, options.tail_turn, options.tail_window, curves);
   measure_curves(work, mesh, options.measure, curves);
-  rank_components(work, options.filter, curves);
+  // On a coarse mesh the turn is measured over a wider radius, where a round body turns more and a crease does not.
+  FilterOptions filter = options.filter;
+  filter.min_turn *= std::sqrt(std::max(Real(1), options.turn.radius_in_edges * edge_length / options.turn.radius));
+  rank_components(work, filter, curves);
   return curves;
 }
 

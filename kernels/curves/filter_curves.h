@@ -8,7 +8,7 @@ namespace intarsia::kernels {
 
 // Angles in radians, lengths in units of the bounding-box diagonal.
 struct FilterOptions {
-  Real min_turn = 0.3;       // mean turn angle along the component
+  Real min_turn = 0.3;       // mean turn angle along the component; more on coarse meshes, see connect_features
   Real min_length = 0.03;    // of the component
   Real min_sharpness = 0.7;  // mean of -k'' / kd^3 along the component
 };
