@@ -1,7 +1,6 @@
 // The samples of a disc: clusters of one level, connected to a start inside a ball.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,23 +20,24 @@ class DiscWalker {
     std::span<const Index> id;  // breadth-first; a superset of the disc: weigh by ramp()
     Real cell;                  // distance between them
   };
-  // Samples for discs of scale `code` around the points of cluster `c` of level 0. Neighbouring clusters share their
-  // samples, so walking the clusters in order is cheap: the last list of each code is kept. Spans live until the next
-  // call with the same code. Requires: is_disc(code).
+  // Samples for discs of scale `code` around the points of cluster `c` of level 0. Clusters of one parent share
+  // their samples, so walking the clusters in order is cheap: recent lists are kept. Spans live until the
+  // next call with the same code. Requires: is_disc(code).
   Samples around(Index c, int code);
 
  private:
+  static constexpr Index kKept = 64;  // neighbouring clusters have near numbers, not consecutive ones
   struct List {
     std::size_t level = 0;
-    Index start = kNone;
+    Index around = kNone;  // cluster that the list was made for, of the level above where there is one
     std::vector<Index> id;
   };
-  void walk(List& list, Real radius);
+  void walk(List& list, Index first, const Vec3& centre, Real reach);
 
   const SampleLevels& levels_;
   std::vector<std::vector<std::uint32_t>> stamp_;
   std::uint32_t epoch_ = 0;
-  std::array<List, kDiscs> list_;
+  std::vector<List> list_;  // kKept a code, by cluster
 };
 
 // Share of a sample at distance d in a disc: 1 inside, 0 outside, linear over one cell, so that neighbours see nearly

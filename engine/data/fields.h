@@ -13,12 +13,12 @@ namespace intarsia {
 enum class FitStatus : std::uint8_t { full = 0, ring_grown = 1, quadratic = 2, invalid = 3 };
 
 struct CurvatureFields {
-  Vec3Array normal;                        // unit, refined (pass B)
-  std::vector<Real> kmax, kmin;            // kmax >= kmin, signed
-  Vec3Array tmax, tmin;                    // unit tangent directions, each defined up to sign
-  std::vector<Real> emax, emin;            // derivative of kmax (kmin) along the stored tmax (tmin)
-  std::vector<Real> radius;                // rho: mean 3D distance of the fit points
-  std::vector<std::uint8_t> ring;          // ring really fitted (above 6: a coarser level, see kernels/scale)
+  Vec3Array normal;                // unit, refined (pass B)
+  std::vector<Real> kmax, kmin;    // kmax >= kmin, signed
+  Vec3Array tmax, tmin;            // unit tangent directions, each defined up to sign
+  std::vector<Real> emax, emin;    // derivative of kmax (kmin) along the stored tmax (tmin)
+  std::vector<Real> radius;        // rho: mean 3D distance of the fit points
+  std::vector<std::uint8_t> ring;  // ring really fitted; above 6 a disc, see engine/data/sample_levels.h
   std::vector<FitStatus> status;
   std::vector<std::uint8_t> direction_ok;  // 0 where kmax and kmin are too equal for directions to mean anything
 

@@ -51,7 +51,7 @@ class RingWalker {
   std::vector<std::uint8_t> stop_;  // vertices on barrier edges; empty without barriers
   std::vector<std::uint32_t> vertex_stamp_, face_stamp_;
   std::uint32_t epoch_ = 0;
-  std::vector<Index> queue_, faces_;
+  std::vector<Index> queue_, faces_;    // larger than what end_ and face_end_ say is in use
   Index end_[kMaxRings + 1] = {};       // end_[j]: queue size after ring j
   Index face_end_[kMaxRings + 1] = {};  // face_end_[k]: faces of N_k
   int depth_ = 0, face_rings_ = 0;

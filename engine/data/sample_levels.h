@@ -2,7 +2,7 @@
 // vertices), and the discs that are measured and fitted through them where six rings see nothing but a plane.
 //
 // A scale is one byte. 1 .. 6 is a ring count. A code above 6 is a disc: the part of the surface around a vertex that
-// is connected inside a ball of radius disc_radius(code) = 0.1 * 1.5^(code - 16) diagonals. Codes are absolute, so
+// is connected inside a ball of radius disc_radius(code) = 0.057 * 1.5^(code - 16) diagonals. Codes are absolute, so
 // meshes of different density use the same discs for the same shape.
 #pragma once
 
@@ -18,12 +18,12 @@
 namespace intarsia {
 
 inline constexpr int kRings = 6;      // paper: m
-inline constexpr int kFirstDisc = 7;  // radius 0.0026
-inline constexpr int kLastDisc = 17;  // radius 0.15
+inline constexpr int kFirstDisc = 7;  // radius 0.0015
+inline constexpr int kLastDisc = 17;  // radius 0.0855
 inline constexpr int kDiscs = kLastDisc - kFirstDisc + 1;
 
 inline bool is_disc(std::uint8_t code) { return code >= kFirstDisc; }
-inline Real disc_radius(int code) { return 0.1 * std::pow(1.5, code - 16); }
+inline Real disc_radius(int code) { return 0.057 * std::pow(1.5, code - 16); }
 
 struct SampleLevel {
   std::vector<Index> parent;  // item of the finer level (level 0: vertex) -> cluster of this level

@@ -20,7 +20,7 @@ struct ScaleOptions {
       true;                   // fit in the third case: the ring closest to omega_+, as in the bent case. The jump rule
                               // ends at ring 2 on a fillet of 6 edges' radius, where three parallel ridges appear.
   bool discs = true;          // look beyond six rings
-  Real largest_disc = 0.045;  // diagonals; fillets that bend more slowly turn too little to be features, and on coarser
+  Real largest_disc = 0.057;  // diagonals; fillets that bend more slowly turn too little to be features, and on coarser
                               // meshes six rings reach as far
   Real flat_reach = 0.01;  // diagonals; where no disc bends either, the fit reaches this far (2 to 4 rings, or a disc
                            // on denser meshes): on irregular meshes small fits of flat parts are all noise
