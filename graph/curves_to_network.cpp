@@ -56,9 +56,12 @@ class Choice {
     return r;
   }
 
-  // The lowest threshold, at least `from`, whose network encloses at most `most` patches, by bisection on logarithms.
+  // The lowest threshold, at least `from`, whose network adds at most `most` patches to the pieces that the surface has
+  // anyway, by bisection on logarithms.
   Real threshold_for(Index most, Real from) const {
     if (extend(from).patches <= most) return from;
+    const Index pieces = extend(2 * kAlways).patches;
+    most = most == kNone ? kNone : most + pieces - 1;
     Real low = from, high = from;
     for (Real s : candidates_.component_saliency) high = std::max(high, 1.01 * s);
     for (int step = 0; step < options_.choice.steps; ++step) {

@@ -12,7 +12,7 @@ LayoutOptions paper_options(std::uint64_t seed) {
   o.sharp.enabled = false;
   o.scale = kernels::ScaleOptions::paper();
   o.curvature = kernels::CurvatureOptions::paper();
-  o.ridges.centre_of_points = false;
+  o.ridges = kernels::RidgeOptions::paper();
   o.curves = kernels::paper_curve_options();
   o.choice.most_patches = kNone;
   o.direction.smoothing = 0;

@@ -34,14 +34,17 @@ Embedded embed_smoothed(const Work& work, const Surface& surface, const Network&
     PatchLabels fresh = flood_patches(work, e.refined.mesh, e.refined.on_network);
     const LabelMatch match = match_labels(work, surface.mesh, network.refined, old.patch_of_face, old.count, e.refined,
                                           fresh.patch_of_face, fresh.count);
-    if (!match.ok && attempt < kAttempts) {
-      const std::vector<std::uint8_t> more = arcs_of_patches(graph, match.trouble);
+    std::vector<Index> trouble = match.trouble;
+    if (match.ok) {
+      for_each(work, Cost::light, fresh.patch_of_face.size(),
+               [&](std::size_t f) { fresh.patch_of_face[f] = match.old_of_new[fresh.patch_of_face[f]]; });
+      trouble = patches_out_of_place(work, graph, e.refined.mesh, fresh.patch_of_face, e.edge, e.edge_curve);
+    }
+    if ((!match.ok || !trouble.empty()) && attempt < kAttempts) {
+      const std::vector<std::uint8_t> more = arcs_of_patches(graph, trouble);
       for (std::size_t a = 0; a < keep.size(); ++a) keep[a] |= more[a];
       continue;
     }
-    if (match.ok)
-      for_each(work, Cost::light, fresh.patch_of_face.size(),
-               [&](std::size_t f) { fresh.patch_of_face[f] = match.old_of_new[fresh.patch_of_face[f]]; });
     Embedded out;
     out.refined = std::move(e.refined);
     out.labels = std::move(fresh);

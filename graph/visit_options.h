@@ -17,6 +17,7 @@ void visit_options(Options& o, V&& v) {
   v("scale.bent", o.scale.select.bent, "surface variation of a well chosen ring (omega_+)", 0.0, 2.0);
   v("scale.slack", o.scale.select.slack, "a smaller ring wins within this distance of omega_+", 0.0, 1.0);
   v("scale.discs", o.scale.discs, "look beyond six rings where they are flat", 0, 1);
+  v("scale.largest-disc", o.scale.largest_disc, "largest disc looked at, diagonals", 0.001, 0.15);
   v("fit.normal-gate", o.curvature.fit.normal_gate, "least cosine between normals of a fit point", 0.0, 1.0);
   v("fit.refine-normals", o.curvature.fit.refine_normals, "second pass of normals before the fit", 0, 1);
   v("fit.anisotropy", o.curvature.anisotropy, "least relative difference of principal curvatures", 0.0, 1.0);

@@ -22,7 +22,8 @@ struct FeatureCurves {
   std::vector<Real> kd;           // curvature across, positive for both channels: k_max, or -k_min in a valley
   std::vector<Real> kmax, kmin;   // signed, as in CurvatureFields
   std::vector<Real> extremality;  // sqrt(e_max^2 + e_min^2), interpolated from the ends of the mesh edge (Eq. 7)
-  std::vector<Real> sharpness;    // -k'' / kd^3 across the curve: about 0 on cylinders, tori and spheres
+  std::vector<Real> sharpness;    // -k'' / kd^3 across the curve (wide discs: twice the relative drop of k beside
+                                   // it): about 0 on cylinders, tori and spheres
   std::vector<Real> radius;       // rho of the fit: mean distance of its points
 
   // Per curve.

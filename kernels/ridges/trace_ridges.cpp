@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/data/sample_levels.h"
 #include "engine/data/weld_chains.h"
 #include "engine/parallel/compact.h"
 #include "engine/parallel/sort.h"
 #include "kernels/ridges/chain_segments.h"
+#include "kernels/ridges/curvature_falloff.h"
 
 namespace intarsia::kernels {
 
@@ -56,7 +58,9 @@ void fill_crossing(const MeshView& mesh, const CrestFields& crest, Index edge, R
   out.kd[i] = (1 - a) * crest.k(v1) + a * crest.k(v2);
   out.extremality[i] = (1 - a) * std::hypot(f.emax[v1], f.emin[v1]) + a * std::hypot(f.emax[v2], f.emin[v2]);
   const Vec3 p = (1 - a) * mesh.point(v1) + a * mesh.point(v2);
-  out.sharpness[i] = sharpness_at(mesh, crest, edge, p, across, out.kd[i]);
+  const bool wide = is_disc(f.ring[v1]) && is_disc(f.ring[v2]) && out.kd[i] > 0;
+  out.sharpness[i] = wide ? 2 * curvature_falloff(mesh, crest, v1, p, across, out.kd[i])
+                          : sharpness_at(mesh, crest, edge, p, across, out.kd[i]);
 }
 
 // A centre node: means over its three crossings.
