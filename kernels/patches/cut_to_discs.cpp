@@ -63,7 +63,7 @@ Index divide_region(const Work& work, const PatchSurface& s, const Region& regio
   const std::size_t faces = region.faces.size();
   Index node_size = node_size_for(faces);
   if (faces / node_size < std::size_t{k} * 8) node_size = 1;
-  RegionGraph g = make_region_graph(work, s, region, node_size, true, regions);
+  RegionGraph g = make_region_graph(work, s, region, node_size, s.normal, regions);
   FarSeeds far = farthest_seeds(work, g, k);
   if (!g.is_faces && far.seed.size() > 1) {
     std::vector<Index> face_of_seed(far.seed.size(), kNone), seed_of_node(g.nodes(), kNone);
@@ -72,10 +72,10 @@ Index divide_region(const Work& work, const PatchSurface& s, const Region& regio
       const Index seed = seed_of_node[g.node_of_face[i]];
       if (seed != kNone && face_of_seed[seed] == kNone) face_of_seed[seed] = i;
     }
-    g = make_region_graph(work, s, region, 1, true, regions);
+    g = make_region_graph(work, s, region, 1, s.normal, regions);
     far = {face_of_seed, nearest_seed(work, g, face_of_seed)};
   } else if (!g.is_faces) {
-    g = make_region_graph(work, s, region, 1, true, regions);
+    g = make_region_graph(work, s, region, 1, s.normal, regions);
   }
   if (far.seed.size() < 2 && faces > 1) {  // all faces in one place: any two connected parts will do
     far.seed = {0, static_cast<Index>(faces - 1)};

@@ -9,7 +9,7 @@ namespace intarsia::kernels {
 
 struct DiscOptions {
   Index most_seeds = 64;  // parts made of one region at a time; parts that are no discs are divided again
-  RelaxOptions relax{.passes = 12, .length_weight = 0.15, .fit_normals = false};
+  RelaxOptions relax{.passes = 20, .length_weight = 0.4, .fit_normals = false};
   MergeOptions merge{.salience_weight = 0.02, .border_reward = 0.05, .compactness = 0.2, .free_winding = 1.5};
 };
 

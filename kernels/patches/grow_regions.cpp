@@ -80,9 +80,9 @@ std::vector<Index> grow_regions(const Work& work, const RegionGraph& g, std::spa
   return label;
 }
 
-void grow_faces(const Work& work, const PatchSurface& s, const Region& region, const RegionGraph& g,
-                std::span<const Index> node_label, std::span<const Index> seed, std::span<const Vec3> proxy,
-                const GrowOptions& options, Regions& regions) {
+void grow_faces(const Work& work, const PatchSurface& s, const Vec3View& normal, const Region& region,
+                const RegionGraph& g, std::span<const Index> node_label, std::span<const Index> seed,
+                std::span<const Vec3> proxy, const GrowOptions& options, Regions& regions) {
   const auto core = find_cores(g, node_label, seed);
   const std::size_t n = region.faces.size();
   std::vector<Index> label(n);
@@ -96,16 +96,8 @@ void grow_faces(const Work& work, const PatchSurface& s, const Region& region, c
       const Index o = local(s.neighbour(region.faces[i], k));
       if (o == kNone || label[o] != kNone) continue;
       const Index f = region.faces[o];
-      Vec3 sum = s.area[f] * s.normal[f];
-      Real area = s.area[f];
-      if (!options.area_in_key)
-        for (int j = 0; j < 3; ++j)
-          if (const Index x = local(s.neighbour(f, j)); x != kNone) {
-            const Index y = region.faces[x];
-            sum += s.area[y] * s.normal[y], area += s.area[y];
-          }
-      const Real d = area > 0 ? 2 - 2 * sum.dot(proxy[label[i]]) / area : 2;
-      queue.push({options.area_in_key ? d * area : d, o, label[i]});
+      const Real d = 2 - 2 * normal[f].dot(proxy[label[i]]);
+      queue.push({options.area_in_key ? d * s.area[f] : d, o, label[i]});
     }
   };
   for (Index i = 0; i < n; ++i)

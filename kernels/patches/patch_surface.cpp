@@ -92,4 +92,21 @@ PatchSurface make_patch_surface(const Work& work, const RefinedMesh& refined, Ve
   return s;
 }
 
+Vec3Array smooth_normals(const Work& work, const PatchSurface& s, std::span<const Index> label, int rounds) {
+  Vec3Array normal = s.normal, next(rounds > 0 ? s.normal.size() : 0);
+  for (int round = 0; round < rounds; ++round) {
+    for_each(work, Cost::light, s.area.size(), [&](std::size_t i) {
+      const Index f = static_cast<Index>(i);
+      Vec3 sum = s.area[f] * normal[f];
+      Real area = s.area[f];
+      for (int k = 0; k < 3; ++k)
+        if (const Index g = s.neighbour(f, k); g != kNone && label[g] == label[f])
+          sum += s.area[g] * normal[g], area += s.area[g];
+      next.set(f, area > 0 ? Vec3(sum / area) : Vec3::Zero());
+    });
+    std::swap(normal, next);
+  }
+  return normal;
+}
+
 }  // namespace intarsia::kernels

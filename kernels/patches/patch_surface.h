@@ -39,6 +39,10 @@ struct PatchSurface {
 PatchSurface make_patch_surface(const Work& work, const RefinedMesh& refined, Vec3View parent_normal, Real mean_edge,
                                 Real hole_length = 0.05);
 
+// Face normals averaged over `rounds` rings of edge neighbours with the same label, by area; at most unit length. What
+// regions grow by: single noisy faces neither attract seeds nor fray borders. 0 rounds: the normals themselves.
+Vec3Array smooth_normals(const Work& work, const PatchSurface& surface, std::span<const Index> label, int rounds);
+
 // The half-edge opposite corner c = 3 f + i runs from corner i+1 to corner i+2. This is the half-edge that follows it
 // around its head, turning inside the faces for which crossing(edge) holds until it meets an edge that must not be
 // crossed. across_hole(edge) gives, for a boundary edge that may be crossed, the boundary edge on the other side.

@@ -14,7 +14,12 @@ namespace {
 class Halving {
  public:
   Halving(const Work& work, const PatchSurface& s, const PatchLabels& labels, const ReachOptions& options)
-      : work_(work), s_(s), options_(options), regions_(labels), faces_(labels.count) {
+      : work_(work),
+        s_(s),
+        options_(options),
+        regions_(labels),
+        normal_(smooth_normals(work, s, labels.patch_of_face, options.split.smoothing)),
+        faces_(labels.count) {
     const Csr rows = faces_of_patches(labels);
     for (Index p = 0; p < labels.count; ++p) {
       faces_[p].assign(rows.row(p).begin(), rows.row(p).end());
@@ -79,7 +84,8 @@ class Halving {
     const Shape shape = measure(faces_[p]);
     const Region region{p, 0, faces_[p]};
     if (shape.energy > options_.flat * shape.area) {
-      if (approximate_region(work_, s_, region, 2, options_.split, regions_) == 2 && is_good(p, 0.05)) return true;
+      if (approximate_region(work_, s_, normal_, region, 2, options_.split, regions_) == 2 && is_good(p, 0.05))
+        return true;
       restore(p);
     }
     divide_region(work_, s_, region, 2, 1, options_.relax, regions_);
@@ -138,6 +144,7 @@ class Halving {
   const PatchSurface& s_;
   const ReachOptions& options_;
   Regions regions_;
+  Vec3Array normal_;
   std::vector<std::vector<Index>> faces_;
   std::priority_queue<std::tuple<Real, Real, Index>> queue_;
 };

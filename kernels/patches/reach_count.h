@@ -12,7 +12,7 @@ struct ReachOptions {
   bool discs = true;   // keep every patch a disc
   MergeOptions merge;  // keep_discs is ignored: `discs` decides
   SplitOptions split;
-  RelaxOptions relax{.passes = 12, .length_weight = 0.15, .fit_normals = false};  // borders of halves of flat patches
+  RelaxOptions relax{.passes = 20, .length_weight = 0.4, .fit_normals = false};  // borders of halves of flat patches
   Real flat = 0.02;  // L2,1 energy per area below which a patch is halved by distance, not by normals
 };
 

@@ -98,7 +98,7 @@ Index node_size_for(std::size_t faces) {
 }
 
 RegionGraph make_region_graph(const Work& work, const PatchSurface& s, const Region& region, Index node_size,
-                              bool smooth_normals, Regions& regions) {
+                              const Vec3View& normal, Regions& regions) {
   RegionGraph g;
   const std::size_t n = region.faces.size();
   for (std::size_t i = 0; i < n; ++i) regions.position[region.faces[i]] = static_cast<Index>(i);
@@ -119,20 +119,16 @@ RegionGraph make_region_graph(const Work& work, const PatchSurface& s, const Reg
     const Vec3 c = s.centroid(f);
     g.area[node] += s.area[f];
     g.normal_sum.set(node, g.normal_sum[node] + s.area[f] * s.normal[f]);
+    g.mean_normal.set(node, g.mean_normal[node] + s.area[f] * normal[f]);
     g.centroid.set(node, g.centroid[node] + s.area[f] * c);
     plain.set(node, plain[node] + c);
     ++count[node];
   }
-  for (Index i = 0; i < nodes; ++i)
-    g.centroid.set(i, g.area[i] > 0 ? Vec3(g.centroid[i] / g.area[i]) : Vec3(plain[i] / count[i]));
-  link_nodes(s, region, regions, g);
   for (Index i = 0; i < nodes; ++i) {
-    Vec3 sum = g.normal_sum[i];
-    Real area = g.area[i];
-    if (smooth_normals)
-      for (const Index o : g.row(i)) sum += g.normal_sum[o], area += g.area[o];
-    g.mean_normal.set(i, area > 0 ? Vec3(sum / area) : Vec3::Zero());
+    if (g.area[i] > 0) g.mean_normal.set(i, g.mean_normal[i] / g.area[i]);
+    g.centroid.set(i, g.area[i] > 0 ? Vec3(g.centroid[i] / g.area[i]) : Vec3(plain[i] / count[i]));
   }
+  link_nodes(s, region, regions, g);
   return g;
 }
 

@@ -25,11 +25,10 @@ struct RegionGraph {
 };
 
 // node_size: about how many faces a node takes; 1 = one each. A ball stops at faces that turn more than about 37
-// degrees from its first one. smooth_normals: mean_normal takes in the neighbours of a node, so that single noisy faces
-// neither attract seeds nor fray borders.
+// degrees from its first one. `normal`: per face of the surface, what mean_normal is made of (smooth_normals).
 // Requires: region.faces connected. Writes regions.position of these faces.
 RegionGraph make_region_graph(const Work& work, const PatchSurface& surface, const Region& region, Index node_size,
-                              bool smooth_normals, Regions& regions);
+                              const Vec3View& normal, Regions& regions);
 
 // Nodes per region that keep a Lloyd iteration near a millisecond: 1 for small regions, balls for large ones.
 Index node_size_for(std::size_t faces);

@@ -11,9 +11,9 @@
 namespace intarsia::kernels {
 
 struct RelaxOptions {
-  int passes = 8;
-  Real length_weight = 0.15;  // price of border length, in mean edge lengths; against A |n - N|^2
-  bool fit_normals = true;    // false: length alone counts
+  int passes = 20;
+  Real length_weight = 0.4;  // price of border length, in mean edge lengths; against A |n - N|^2
+  bool fit_normals = true;   // false: length alone counts
 };
 
 // Borders between the regions first_label, ..., and `also` (kNone = none) of one source; faces of other labels and of

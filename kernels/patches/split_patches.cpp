@@ -71,12 +71,12 @@ bool add_seed(const Work& work, const RegionGraph& g, Index r, const ProxyOption
   return true;
 }
 
-Index write_regions(const Work& work, const PatchSurface& s, const Region& region, const RegionGraph& g,
-                    const ProxyFit& fit, const SplitOptions& options, Regions& regions) {
+Index write_regions(const Work& work, const PatchSurface& s, const Vec3View& normal, const Region& region,
+                    const RegionGraph& g, const ProxyFit& fit, const SplitOptions& options, Regions& regions) {
   if (g.is_faces) {
     for (std::size_t i = 0; i < region.faces.size(); ++i) regions.label[region.faces[i]] = fit.label[i];
   } else {
-    grow_faces(work, s, region, g, fit.label, fit.seed, fit.proxy, options.fit.grow, regions);
+    grow_faces(work, s, normal, region, g, fit.label, fit.seed, fit.proxy, options.fit.grow, regions);
   }
   if (fit.regions() > 1) relax_borders(work, s, region.source, region.faces, 0, kNone, options.relax, regions);
   return fit.regions();
@@ -146,10 +146,9 @@ std::vector<Index> add_seed_locally(const Work& work, const RegionGraph& g, Inde
 constexpr Index kFitAll = 8;      // regions up to which all are fitted again for each new seed
 constexpr Index kFitAround = 64;  // regions up to which the neighbours of the worst one are
 
-Index split_region(const Work& work, const PatchSurface& s, const Region& region, const SplitOptions& options,
-                   Regions& regions) {
-  const RegionGraph g =
-      make_region_graph(work, s, region, node_size_for(region.faces.size()), options.smooth_normals, regions);
+Index split_region(const Work& work, const PatchSurface& s, const Vec3View& normal, const Region& region,
+                   const SplitOptions& options, Regions& regions) {
+  const RegionGraph g = make_region_graph(work, s, region, node_size_for(region.faces.size()), normal, regions);
   const Csr faces_of_node = faces_of_patches({g.node_of_face, g.nodes()});
   const std::vector<Index> whole(g.nodes(), 0);
   Members members = members_of(whole, 1);
@@ -181,7 +180,7 @@ Index split_region(const Work& work, const PatchSurface& s, const Region& region
       if (changed.empty()) break;
     }
   }
-  return write_regions(work, s, region, g, fit, options, regions);
+  return write_regions(work, s, normal, region, g, fit, options, regions);
 }
 
 }  // namespace
@@ -192,7 +191,7 @@ SplitOptions paper_split(std::uint64_t seed) {
   o.literal = true;
   o.random_seeds = true;
   o.seed = seed;
-  o.smooth_normals = false;
+  o.smoothing = 0;
   o.fit.grow.area_in_key = true;
   o.relax.passes = 0;
   return o;
@@ -201,21 +200,22 @@ SplitOptions paper_split(std::uint64_t seed) {
 PatchLabels split_patches(const Work& work, const PatchSurface& s, const PatchLabels& labels,
                           const SplitOptions& options) {
   Regions regions(labels);
+  const Vec3Array normal = smooth_normals(work, s, labels.patch_of_face, options.smoothing);
   const Csr faces = faces_of_patches(labels);
   const auto order = largest_first(faces);
   std::vector<Index> count(labels.count, 1);
   for_each(work, Cost::single, order.size(), [&](std::size_t i) {
     const Index p = order[i];
-    count[p] = split_region(work, s, {p, 0, faces.row(p)}, options, regions);
+    count[p] = split_region(work, s, normal, {p, 0, faces.row(p)}, options, regions);
   });
   return collect_regions(work, regions, count);
 }
 
-Index approximate_region(const Work& work, const PatchSurface& s, const Region& region, Index count,
-                         const SplitOptions& options, Regions& regions) {
+Index approximate_region(const Work& work, const PatchSurface& s, const Vec3View& normal, const Region& region,
+                         Index count, const SplitOptions& options, Regions& regions) {
   const Index node_size =
       count * 8 > region.faces.size() / node_size_for(region.faces.size()) ? 1 : node_size_for(region.faces.size());
-  const RegionGraph g = make_region_graph(work, s, region, node_size, options.smooth_normals, regions);
+  const RegionGraph g = make_region_graph(work, s, region, node_size, normal, regions);
   ProxyFit fit =
       fit_proxies(work, g, first_seeds(g, std::min<Index>(2, count), region.source, options), {}, options.fit);
   Members members = members_of(fit.label, fit.regions());
@@ -226,7 +226,7 @@ Index approximate_region(const Work& work, const PatchSurface& s, const Region& 
         worst = r;
     if (worst == kNone || !add_seed(work, g, worst, options.fit, members, fit)) break;
   }
-  return write_regions(work, s, region, g, fit, options, regions);
+  return write_regions(work, s, normal, region, g, fit, options, regions);
 }
 
 }  // namespace intarsia::kernels

@@ -16,7 +16,7 @@ struct SplitOptions {
   bool literal = false;                    // paper: any two triangles decide, not the trimmed spread
   bool random_seeds = false;               // paper: two random first seeds, keyed by (seed, patch)
   std::uint64_t seed = 0;
-  bool smooth_normals = true;  // grow by normals averaged with the neighbours'
+  int smoothing = 6;  // rounds of averaging of the normals that regions grow by; 0 = none (paper)
   ProxyOptions fit;
   RelaxOptions relax;
 };
@@ -33,8 +33,8 @@ PatchLabels split_patches(const Work& work, const PatchSurface& surface, const P
                           const SplitOptions& options);
 
 // Approximation of one region by exactly `count` proxies (fewer only if it has fewer nodes); writes regions.label and
-// returns the number of regions.
-Index approximate_region(const Work& work, const PatchSurface& surface, const Region& region, Index count,
-                         const SplitOptions& options, Regions& regions);
+// returns the number of regions. `normal`: smooth_normals of the surface.
+Index approximate_region(const Work& work, const PatchSurface& surface, const Vec3View& normal, const Region& region,
+                         Index count, const SplitOptions& options, Regions& regions);
 
 }  // namespace intarsia::kernels
