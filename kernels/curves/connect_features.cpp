@@ -29,7 +29,7 @@ FeatureCurves connect_features(const Work& work, const MeshView& mesh, Real edge
     turn_angles(work, mesh, edge_length, options.turn, curves);
     measure_curves(work, mesh, options.measure, curves);
     FilterOptions all;
-    all.min_turn = all.min_length = 0, all.min_sharpness = -1;
+    all.min_turn = all.min_length = 0, all.min_sharpness = all.folded_sharpness = -1;
     rank_components(work, all, curves);
     return curves;
   }

@@ -24,6 +24,12 @@ Real mean_sharpness(const FeatureCurves& curves, Index c) {
   return sum / static_cast<Real>(row.size());
 }
 
+Real needed_sharpness(Real turn, const FilterOptions& options) {
+  const Real range = std::max(options.folded_turn - options.unfolded_turn, Real(1e-9));
+  const Real folded = std::clamp((turn - options.unfolded_turn) / range, Real(0), Real(1));
+  return (1 - folded) * options.min_sharpness + folded * options.folded_sharpness;
+}
+
 }  // namespace
 
 void rank_components(const Work& work, const FilterOptions& options, FeatureCurves& curves) {

@@ -8,9 +8,14 @@ namespace intarsia::kernels {
 
 // Angles in radians, lengths in units of the bounding-box diagonal.
 struct FilterOptions {
-  Real min_turn = 0.3;       // mean turn angle along the component; more on coarse meshes, see connect_features
-  Real min_length = 0.03;    // of the component
-  Real min_sharpness = 0.7;  // mean of -k'' / kd^3 along the component
+  Real min_turn = 0.3;     // mean turn angle along the component; more on coarse meshes, see connect_features
+  Real min_length = 0.03;  // of the component
+  // Mean of -k'' / kd^3 along the component. On cylinders noise alone reaches about 1, at a modest turn; where the
+  // surface is folded over, real crests have less.
+  Real min_sharpness = 1.2;     // at a mean turn of up to unfolded_turn
+  Real folded_sharpness = 0.7;  // from folded_turn on; linear between
+  Real unfolded_turn = 0.8;
+  Real folded_turn = 1.2;
 };
 
 // The paper's thresholds on each curve (R and T at diagonal 1).

@@ -30,7 +30,7 @@ inline void draw(FeatureCurves& c, const std::vector<Index>& vertices, CurveKind
     c.resize_points(p + 1);
     c.net.point[p] = SurfacePoint::at_vertex(v);
     c.normal.set(p, Vec3(0, 0, 1)), c.across.set(p, Vec3(0, 1, 0));
-    c.kd[p] = c.kmax[p] = 3, c.kmin[p] = 1, c.extremality[p] = 2, c.sharpness[p] = 1, c.radius[p] = 0.01;
+    c.kd[p] = c.kmax[p] = 3, c.kmin[p] = 1, c.extremality[p] = 2, c.sharpness[p] = 1.5, c.radius[p] = 0.01;
     c.turn()[p] = turn;
     row.push_back(p);
   }
