@@ -63,8 +63,9 @@ void rank_components(const Work& work, const FilterOptions& options, FeatureCurv
     sharpness[n] += curves.length[c] * mean_sharpness(curves, c);
   }
   for (Index n = 0; n < components; ++n) {
-    const bool stands_out =
-        turn[n] >= options.min_turn * crest_length[n] && sharpness[n] >= options.min_sharpness * crest_length[n];
+    const Real mean_turn = crest_length[n] > 0 ? turn[n] / crest_length[n] : 0;
+    const bool stands_out = mean_turn >= options.min_turn && crest_length[n] > 0 &&
+                            sharpness[n] >= needed_sharpness(mean_turn, options) * crest_length[n];
     if (stands_out && length[n] >= options.min_length) curves.component_passed[n] = 1;
     if (stands_out && sharp[n]) curves.component_passed[n] = 2;
   }

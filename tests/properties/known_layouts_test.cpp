@@ -65,6 +65,30 @@ TEST_CASE("a cube has its 12 edges, 8 corners and 6 faces") {
   CHECK(feature_length(*run.layout) * run.surface->box.diagonal == doctest::Approx(24).epsilon(1e-9));
 }
 
+TEST_CASE("a cube with fillets of 2, 4 and 8 edges: 6 faces, 8 corners, 12 edges that are mostly ridges") {
+  for (const Real edges : {2.0, 4.0, 8.0}) {
+    CAPTURE(edges);
+    const Real h = 0.25 / edges;  // the default fillet is 0.25 on a half side of 1
+    const LayoutRun run =
+        run_layout(made("rounded-box", static_cast<std::uint64_t>(22 / (0.433 * h * h))), graph::robust_options());
+    check_valid(run);
+    const graph::Layout& layout = *run.layout;
+    CHECK(layout.labels.count == 6);
+    for (Index p = 0; p < layout.labels.count; ++p)
+      CHECK(layout.table.area[p] == doctest::Approx(run.surface->area / 6).epsilon(0.05));
+    std::vector<Index> degree(layout.graph.node_count(), 0);
+    for (Index a = 0; a < layout.graph.arc_count(); ++a) ++degree[layout.graph.start[a]], ++degree[layout.graph.end[a]];
+    const auto corners = std::count(degree.begin(), degree.end(), 3u);
+    const auto through = std::count(degree.begin(), degree.end(), 2u);
+    CHECK(corners == 8);
+    CHECK(corners + through == layout.graph.node_count());
+    CHECK(layout.graph.arc_count() - through == 12);
+    Real total = 0;
+    for (Real l : layout.graph.length) total += l;
+    CHECK(length_of(layout, CurveKind::ridge) > 0.6 * total);
+  }
+}
+
 TEST_CASE("the number of patches that is asked for comes out exactly") {
   for (const char* shape : {"part", "star", "sphere", "half-pipe"})
     for (const Index wanted : {8u, 20u, 60u}) {
