@@ -24,9 +24,10 @@ Panel panel(std::string title, std::string caption, const Shape& shape, Lines li
 
 }  // namespace
 
-Image draw_preview(const Work& work, const PreviewInput& in) {
+Image draw_preview(const Work& work, const PreviewInput& in, const std::optional<View>& view) {
   const MeshView mesh = in.surface.mesh;
   Strip strip;
+  strip.options.view = view;
   strip.add(panel("input", counted(mesh.face_count(), "triangle", "triangles"), shape_of(mesh)));
 
   Lines raw = lines_of(mesh, in.ridges.curves.net);

@@ -1,8 +1,11 @@
 // The strip of five pictures that shows a run: input, raw lines, filtered curves, closed network, patches.
 #pragma once
 
+#include <optional>
+
 #include "engine/io/write_layout.h"
 #include "graph/artefacts.h"
+#include "tools/picture/camera.h"
 #include "tools/picture/image.h"
 
 namespace intarsia::tools {
@@ -17,6 +20,7 @@ struct PreviewInput {
   std::span<const Rgb> patch_colour;
 };
 
-Image draw_preview(const Work& work, const PreviewInput& input);
+// view: where from; none = chosen from the geometry.
+Image draw_preview(const Work& work, const PreviewInput& input, const std::optional<View>& view = {});
 
 }  // namespace intarsia::tools

@@ -80,18 +80,18 @@ void add_layout_report(json& report, const Soup& soup, const graph::Surface& sur
   Index not_discs = 0;
   for (Index p = 0; p < layout.table.count(); ++p) not_discs += layout.table.is_disc(p) ? 0 : 1;
   report["counts"] = json::object({{"patches", layout.labels.count},
-                      {"wanted_patches", wanted_patches == 0 ? json(nullptr) : json(wanted_patches)},
-                      {"arcs", layout.graph.arc_count()},
-                      {"nodes", layout.graph.node_count()},
-                      {"interior_curves", layout.interior.curve_count()},
-                      {"not_discs", not_discs},
-                      {"feature_curves", network.features.curve_count()},
-                      {"network_patches", network.patches},
-                      {"loose_ends", network.ends},
-                      {"ends_met", network.met},
-                      {"ends_bridged", network.bridged},
-                      {"ends_pruned", network.dead},
-                      {"unsmoothed_arcs", layout.kept_chains}});
+                                   {"wanted_patches", wanted_patches == 0 ? json(nullptr) : json(wanted_patches)},
+                                   {"arcs", layout.graph.arc_count()},
+                                   {"nodes", layout.graph.node_count()},
+                                   {"interior_curves", layout.interior.curve_count()},
+                                   {"not_discs", not_discs},
+                                   {"feature_curves", network.features.curve_count()},
+                                   {"network_patches", network.patches},
+                                   {"loose_ends", network.ends},
+                                   {"ends_met", network.met},
+                                   {"ends_bridged", network.bridged},
+                                   {"ends_pruned", network.dead},
+                                   {"unsmoothed_arcs", layout.kept_chains}});
   report["automatic"] = {{"min_saliency", network.min_saliency}};
   report["checks"] = checks_of(layout);
   report["valid"] = layout.checks.is_valid();

@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -23,6 +26,7 @@ namespace {
 struct RunFlags {
   std::string input, output;
   Index patches = 0;
+  std::vector<double> view;  // azimuth, elevation in degrees
   CommonFlags common;
   OptionFlags method;
 };
@@ -39,6 +43,16 @@ void print_summary(const RunFlags& flags, const nlohmann::json& report, const st
   fmt::print("written to {}: patches.ply layout.ply network.ply network.json report.json preview.png\n",
              (folder / "").string());
   (void)flags;
+}
+
+std::optional<View> chosen_view(const std::vector<double>& degrees) {
+  if (degrees.empty()) return std::nullopt;
+  const double azimuth = degrees[0] * std::numbers::pi / 180, elevation = degrees[1] * std::numbers::pi / 180;
+  View view;
+  view.toward =
+      Vec3(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+  view.up = Vec3::UnitZ();
+  return view;
 }
 
 int run(const RunFlags& flags) {
@@ -61,7 +75,7 @@ int run(const RunFlags& flags) {
                          const graph::Ridges& valleys, const graph::Sharp& sharp, const graph::Network& network,
                          const graph::Layout& layout) {
     add_layout_report(summary, s, surface, network, layout, options.patches);
-    return write_result(work, folder, s, surface, ridges, valleys, sharp, network, layout);
+    return write_result(work, folder, s, surface, ridges, valleys, sharp, network, layout, chosen_view(flags.view));
   };
   using WriteStage =
       Stage<Written, Soup, graph::Surface, graph::Ridges, graph::Ridges, graph::Sharp, graph::Network, graph::Layout>;
@@ -100,6 +114,10 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("-o,--output", flags->output, "folder for the results; exchanged as a whole")->required();
   command->add_option("-n,--patches", flags->patches, "wanted number of patches; 0 = automatic")
       ->check(CLI::NonNegativeNumber);
+  command->add_option("--view", flags->view, "azimuth and elevation of the preview, degrees, z up; default: chosen")
+      ->expected(2)
+      ->delimiter(',')
+      ->check(CLI::Range(-360.0, 360.0));
   add_common_flags(*command, flags->common);
   flags->method.add_to(*command);
   command->callback([flags, &exit_code] { exit_code = run(*flags); });

@@ -12,24 +12,25 @@ std::vector<std::string> result_names() {
 
 Written write_result(const Work& work, const OutputFolder& folder, const Soup& soup, const graph::Surface& surface,
                      const graph::Ridges& ridges, const graph::Ridges& valleys, const graph::Sharp& sharp,
-                     const graph::Network& network, const graph::Layout& layout) {
+                     const graph::Network& network, const graph::Layout& layout, const std::optional<View>& view) {
   const std::vector<Rgb> colour = patch_colours(
       work, adjacent_patches(work, layout.refined.mesh, layout.labels.patch_of_face, layout.labels.count));
   std::vector<std::array<std::uint8_t, 3>> rgb;
   for (const Rgb& c : colour) rgb.push_back({c.r, c.g, c.b});
-  LayoutView view;
-  view.soup = &soup;
-  view.vertex_order = surface.order.vertex, view.face_order = surface.order.face;
-  view.centre = surface.box.centre, view.diagonal = surface.box.diagonal;
-  view.refined = &layout.refined, view.labels = &layout.labels, view.graph = &layout.graph;
-  view.interior = &layout.interior, view.mesh = surface.mesh, view.face_patch = layout.face_patch;
-  view.patch_colour = rgb;
+  LayoutView parts;
+  parts.soup = &soup;
+  parts.vertex_order = surface.order.vertex, parts.face_order = surface.order.face;
+  parts.centre = surface.box.centre, parts.diagonal = surface.box.diagonal;
+  parts.refined = &layout.refined, parts.labels = &layout.labels, parts.graph = &layout.graph;
+  parts.interior = &layout.interior, parts.mesh = surface.mesh, parts.face_patch = layout.face_patch;
+  parts.patch_colour = rgb;
 
-  write_patches_ply(work, folder.file("patches.ply"), view);
-  write_layout_ply(work, folder.file("layout.ply"), view);
-  write_network_ply(work, folder.file("network.ply"), view);
-  write_network_json(work, folder.file("network.json"), view);
-  write_png(folder.file("preview.png"), draw_preview(work, {surface, ridges, valleys, sharp, network, layout, colour}));
+  write_patches_ply(work, folder.file("patches.ply"), parts);
+  write_layout_ply(work, folder.file("layout.ply"), parts);
+  write_network_ply(work, folder.file("network.ply"), parts);
+  write_network_json(work, folder.file("network.json"), parts);
+  write_png(folder.file("preview.png"),
+            draw_preview(work, {surface, ridges, valleys, sharp, network, layout, colour}, view));
   Written written;
   for (const std::string& name : result_names()) {
     std::error_code error;

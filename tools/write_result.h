@@ -1,8 +1,11 @@
 // The "write" stage: the files of a run's output folder, and what remains of the run for its report.
 #pragma once
 
+#include <optional>
+
 #include "engine/io/output_folder.h"
 #include "graph/artefacts.h"
+#include "tools/picture/camera.h"
 
 namespace intarsia::tools {
 
@@ -19,6 +22,6 @@ inline std::size_t items_of(const Written& w) { return w.files; }
 
 Written write_result(const Work& work, const OutputFolder& folder, const Soup& soup, const graph::Surface& surface,
                      const graph::Ridges& ridges, const graph::Ridges& valleys, const graph::Sharp& sharp,
-                     const graph::Network& network, const graph::Layout& layout);
+                     const graph::Network& network, const graph::Layout& layout, const std::optional<View>& view);
 
 }  // namespace intarsia::tools
