@@ -38,7 +38,8 @@ struct Surface {
   Vec3Array face_normal;    // unit, 0 for faces without area
   Vec3Array vertex_normal;  // Max 1999
   Real area = 0;
-  Real mean_edge = 0;  // h
+  Real mean_edge = 0;             // h
+  bool single_precision = false;  // every input coordinate is a float: flat parts carry its rounding
 };
 
 // surface -> scale

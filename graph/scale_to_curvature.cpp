@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "graph/stages.h"
 
 namespace intarsia::graph {
@@ -9,8 +11,11 @@ Curvature scale_to_curvature(const Work& work, const Surface& surface, const Sca
     barrier.assign(surface.mesh.edge_count(), 0);
     for (Index e : sharp.edges.edge) barrier[e] = 1;
   }
+  kernels::CurvatureOptions fit = options.curvature;
+  constexpr Real kFloatTurn = 1e-4;  // radians: what float coordinates turn a plane by, a few rings wide
+  if (surface.single_precision) fit.flat_turn = std::max(fit.flat_turn, kFloatTurn);
   return {kernels::compute_curvature(work, surface.mesh, surface.vertex_normal, scale.fields.fit_ring,
-                                     scale.fields.levels, barrier, options.curvature)};
+                                     scale.fields.levels, barrier, fit)};
 }
 
 }  // namespace intarsia::graph
