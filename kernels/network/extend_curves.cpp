@@ -18,7 +18,7 @@ class Extension {
  public:
   Extension(const Work& work, const RefinedMesh& refined, std::span<const std::uint8_t> active, const Terrain& terrain,
             const ExtensionOptions& options)
-      : work_(work), terrain_(terrain), options_(options), mesh_(refined.mesh) {
+      : terrain_(terrain), options_(options), mesh_(refined.mesh) {
     taken_.assign(mesh_.vertex_count(), 0);
     tip_end_.assign(mesh_.vertex_count(), kNone);
     for (Index e = 0; e < mesh_.edge_count(); ++e)
@@ -143,7 +143,6 @@ class Extension {
     return best < kNoStep;
   }
 
-  const Work& work_;
   const Terrain& terrain_;
   const ExtensionOptions& options_;
   MeshView mesh_;

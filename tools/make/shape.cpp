@@ -80,7 +80,9 @@ void check(const MakeOptions& options) {
   in_range("irregularity", options.irregularity, 0, 1);
   in_range("noise as a part of the diagonal", options.noise_diagonal, 0, 1);
   in_range("noise in edge lengths", options.noise_edges, 0, 100);
-  for (const auto& [name, value] : options.parameters) {
+  for (const auto& parameter : options.parameters) {
+    const std::string& name = parameter.first;
+    const Real value = parameter.second;
     const auto p = std::find_if(info.parameters.begin(), info.parameters.end(),
                                 [&](const ShapeParameter& q) { return q.name == name; });
     if (p == info.parameters.end())
