@@ -1,5 +1,6 @@
 #include "engine/parallel/connect_mesh.h"
 #include "engine/parallel/reduce.h"
+#include "engine/parallel/single_precision.h"
 #include "graph/stages.h"
 #include "kernels/surface/check_soup.h"
 
@@ -16,15 +17,8 @@ Surface mesh_to_surface(const Work& work, const Soup& soup) {
   s.area = sum(work, Cost::light, faces.area.size(), 0.0, [&](std::size_t f) { return faces.area[f]; });
   s.face_normal = std::move(faces.normal);
   s.mean_edge = kernels::mean_edge_length(work, s.mesh);
-  s.single_precision = reduce(
-      work, Cost::light, soup.vertex_count(), true,
-      [&](std::size_t begin, std::size_t end) {
-        for (std::size_t v = begin; v < end; ++v)
-          for (const Real c : {soup.x[v], soup.y[v], soup.z[v]})
-            if (static_cast<Real>(static_cast<float>(c)) != c) return false;
-        return true;
-      },
-      [](bool a, bool b) { return a && b; });
+  s.single_precision =
+      is_single_precision(work, soup, s.order.vertex.size(), [&](std::size_t v) { return s.order.vertex[v]; });
   return s;
 }
 

@@ -2,23 +2,11 @@
 
 #include "engine/io/write_ply.h"
 #include "engine/parallel/for_each.h"
-#include "engine/parallel/reduce.h"
 #include "engine/parallel/scan.h"
+#include "engine/parallel/single_precision.h"
 
 namespace intarsia {
 namespace {
-
-bool is_single_precision(const Work& work, const Soup& soup) {
-  return reduce(
-      work, Cost::light, soup.vertex_count(), true,
-      [&](std::size_t begin, std::size_t end) {
-        for (std::size_t v = begin; v < end; ++v)
-          for (const Real c : {soup.x[v], soup.y[v], soup.z[v]})
-            if (static_cast<Real>(static_cast<float>(c)) != c) return false;
-        return true;
-      },
-      [](bool a, bool b) { return a && b; });
-}
 
 template <class Element>
 void add_positions(Element& element, bool single, const Soup& soup) {
@@ -38,7 +26,7 @@ void write_patches_ply(const Work& work, const std::filesystem::path& path, cons
   PlyFile ply;
   ply.comment("intarsia patches: faces in the order of the input, int patch per face");
   auto& vertex = ply.element("vertex", soup.vertex_count());
-  add_positions(vertex, is_single_precision(work, soup), soup);
+  add_positions(vertex, is_single_precision(work, soup, soup.vertex_count(), [](std::size_t v) { return v; }), soup);
   auto& face = ply.element("face", soup.face_count());
   face.triangles(soup.corner).column<std::int32_t>("patch", patch);
   const char* channel[] = {"red", "green", "blue"};
