@@ -8,5 +8,10 @@ namespace intarsia::tools {
 void add_run_command(CLI::App& app, int& exit_code);
 void add_features_command(CLI::App& app, int& exit_code);
 void add_make_command(CLI::App& app, int& exit_code);
+void add_distance_command(CLI::App& app, int& exit_code);
+void add_eval_command(CLI::App& app, int& exit_code);
+void add_seg_eval_command(CLI::App& app, int& exit_code);
+void add_baseline_command(CLI::App& app, int& exit_code);
+void add_table1_command(CLI::App& app, int& exit_code);
 
 }  // namespace intarsia::tools

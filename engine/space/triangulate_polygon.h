@@ -1,0 +1,52 @@
+// Optimal triangulation of a closed polygon in space by dynamic programming (Klincsek 1980; Barequet, Sharir 1995; with
+// terms between neighbouring triangles Zou, Ju, Carr 2013).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/base/types.h"
+
+namespace intarsia {
+
+enum class PolygonMetric : std::uint8_t {
+  area,              // sum of areas
+  area_bend,         // sum of areas + bend_weight * sum over inner edges of length^2 (1 - cos of the bend)
+  squared_dihedral,  // sum over inner edges of the squared bend, radians
+  worst_dihedral,    // largest bend, radians
+};
+
+struct PolygonOptions {
+  PolygonMetric metric = PolygonMetric::area_bend;
+  Real bend_weight = 0.3;
+  // false: the bend at a chord is measured against the triangle that is best for the part behind the chord on its own:
+  // several times faster, and an upper bound of the optimum. For costs that are asked for thousands of times.
+  bool exact = true;
+};
+
+struct PolygonTriangulation {
+  std::vector<std::array<Index, 3>> triangle;  // positions in the polygon, in its direction; n - 2 of them
+  Real cost = 0;
+  bool ok = false;  // false: no allowed triangulation (fewer than three points, or every one needs a forbidden chord)
+};
+
+// Memory that calls share; one per thread.
+struct PolygonScratch {
+  std::vector<Real> cost;
+  std::vector<std::array<double, 3>> normal;
+  std::vector<Index> apex, offset, order;
+};
+
+// id: the same number marks copies of one point (the two sides of a bridge); empty: all differ. No chord joins two
+// copies of one point, and none doubles a polygon edge (as chords between copies of the ends of a bridge would): a
+// bridged annulus stays a tube instead of becoming two discs.
+// Bends count only between triangles that both have an area above 1e-14 of the squared perimeter: never NaN. A bend
+// across the edges of a bridge (two polygon edges with the same ids) is not counted.
+// Requires: finite points; id empty or one per point.
+// Ensures: ties go to the smallest apex; O(n^3) expected.
+PolygonTriangulation triangulate_polygon(std::span<const Vec3> point, std::span<const Index> id,
+                                         const PolygonOptions& options, PolygonScratch& scratch);
+
+}  // namespace intarsia
