@@ -1,0 +1,51 @@
+// Regions of faces with their mean normals, and the moves between numbers of regions (L2,1 metric of Cohen-Steiner,
+// Alliez, Desbrun 2004).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernels/baselines/face_queue.h"
+
+namespace intarsia::kernels {
+
+struct NormalRegions {
+  std::vector<Index> region;  // per face
+  std::vector<Real> area;     // per region
+  std::vector<Vec3> sum;      // per region: sum of area times unit normal
+
+  Index count() const { return static_cast<Index>(area.size()); }
+  // sum of A |n - N|^2 for the best N, in closed form: 2 (A - |sum A n|).
+  Real energy(Index r) const { return energy_of(area[r], sum[r]); }
+  Real total() const;
+  static Real energy_of(Real a, const Vec3& s) { return std::max(Real{0}, 2 * (a - s.norm())); }
+};
+
+// Energy of any labelling, ids below `count`.
+Real normal_energy(const FaceGraph& graph, std::span<const Index> region, Index count);
+
+// Sums of the regions 0 .. count - 1.
+void refit(const FaceGraph& graph, NormalRegions& regions, Index count);
+
+// One Lloyd step: every region grows anew from its best-fitting face with its mean normal as proxy.
+// Requires: one region at least in every component of the graph. Ensures: regions connected, sums up to date.
+void regrow(const Work& work, const FaceGraph& graph, NormalRegions& regions, FaceQueue& queue, bool area_in_key);
+
+// Every region cut in two: side of each face (0 or 1), and what the energy would fall by, per region; negative where a
+// region cannot be cut. Both sides connected.
+struct Halves {
+  std::vector<std::uint8_t> side;
+  std::vector<Real> gain;
+};
+Halves cut_in_two(const Work& work, const FaceGraph& graph, const NormalRegions& regions, FaceQueue& queue);
+
+// Cuts the regions that gain most (ties: larger area, lower id) until there are `count`, each at most once.
+void split_best(const Work& work, const FaceGraph& graph, NormalRegions& regions, Index count, FaceQueue& queue);
+
+// Merges the cheapest adjacent pair until `count` are left or nothing is adjacent. Ties: lower ids.
+void merge_cheapest(const Work& work, const FaceGraph& graph, NormalRegions& regions, Index count);
+
+// Merges pairs and cuts other regions instead wherever that lowers the energy (teleportation). Returns how many.
+Index teleport(const Work& work, const FaceGraph& graph, NormalRegions& regions, FaceQueue& queue);
+
+}  // namespace intarsia::kernels
