@@ -10,7 +10,7 @@ namespace {
 
 std::uint64_t options_hash(const LayoutOptions& options) {
   Hash hash;
-  hash.add(options.mode), hash.add(options.seed), hash.add(options.patches);
+  hash.add(options.mode), hash.add(options.form), hash.add(options.seed), hash.add(options.patches);
   visit_options(options, [&](const char* name, const auto& value, const char*, auto, auto) {
     hash.add(std::string_view(name));
     hash.add(static_cast<Real>(value));

@@ -1,12 +1,21 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
 #include "graph/stages.h"
+#include "kernels/cells/merge_groups.h"
+#include "kernels/cells/swap_cells.h"
+#include "kernels/layout/trace_boundaries.h"
+#include "kernels/patches/even_cells.h"
+#include "kernels/patches/flood_patches.h"
+#include "kernels/patches/measure_patches.h"
 
 namespace intarsia::graph {
+namespace {
 
-Patches network_to_patches(const Work& work, const Surface& surface, const Network& network,
-                           const LayoutOptions& options) {
-  kernels::SubdivideOptions o = options.subdivide;
-  o.patches = options.patches;
-  kernels::Subdivision s = kernels::subdivide(work, network.refined, surface.face_normal, surface.mean_edge, o);
+using namespace kernels;
+
+Patches from_subdivision(Subdivision&& s) {
   Patches p;
   p.labels = std::move(s.labels);
   p.on_network = std::move(s.on_network);
@@ -15,6 +24,109 @@ Patches network_to_patches(const Work& work, const Surface& surface, const Netwo
   p.merged_patches = s.merged_patches;
   p.warnings = std::move(s.warnings);
   return p;
+}
+
+// The subdivision that looks at the reconstruction error.
+class ErrorDriven {
+ public:
+  ErrorDriven(const Work& work, const Surface& surface, const Network& network, const LayoutOptions& options)
+      : work_(work),
+        network_(network),
+        options_(options),
+        s_(make_patch_surface(work, network.refined, surface.face_normal, surface.mean_edge,
+                              options.subdivide.hole_length)) {}
+
+  Patches run(Index automatic_count, const PatchLabels& automatic) {
+    Patches p;
+    const SubdivideOptions& o = options_.subdivide;
+    labels_ = flood_patches(work_, s_.mesh, network_.refined.on_network);
+    p.network_patches = labels_.count;
+    if (o.merge_tiny) labels_ = merge_patches(work_, s_, labels_, o.merge);
+    p.merged_patches = labels_.count;
+    const Index wanted = options_.patches > 0 ? options_.patches : automatic_count;
+    if (options_.patches == 0 && options_.form == SubdivideForm::compact) {
+      labels_ = automatic;
+    } else {
+      if (o.discs) labels_ = cut_to_discs(work_, s_, labels_, o.disc);
+      const Real factor = options_.form == SubdivideForm::quality ? options_.refine.over_segment : 1;
+      seed(static_cast<Index>(std::ceil(factor * wanted)), p.warnings);
+      if (labels_.count > wanted) merge(wanted);
+    }
+    refine();
+    if (o.merge_tiny && options_.patches == 0) drop_slivers();
+    if (options_.patches > 0 && labels_.count != wanted)
+      p.warnings.push_back("wanted " + std::to_string(wanted) + " patches, got " + std::to_string(labels_.count) +
+                           (reason_.empty() ? "" : ": " + reason_));
+    mark_borders(work_, network_.refined, labels_, p.on_network, p.edge_kind);
+    p.labels = std::move(labels_);
+    return p;
+  }
+
+ private:
+  void seed(Index target, std::vector<std::string>&) {
+    if (labels_.count >= target) return;
+    ReachOptions reach;
+    reach.discs = options_.subdivide.discs;
+    reach.merge = options_.subdivide.merge, reach.split = options_.subdivide.split;
+    reach.by_error = true;
+    ReachedCount reached = reach_count(work_, s_, labels_, target, reach);
+    labels_ = std::move(reached.labels);
+    reason_ = reached.reason;
+  }
+  CellComplex complex_of(const PatchLabels& cells) const {
+    const PatchTable table = measure_patches(work_, s_, cells);
+    const LayoutGraph graph = trace_boundaries(work_, network_.refined, cells.patch_of_face, cells.count);
+    return make_cell_complex(work_, network_.refined, cells, table, graph, options_.subdivide.hole_length,
+                             options_.refine.cell);
+  }
+  GroupOptions group_options() const {
+    GroupOptions group = options_.refine.group;
+    group.discs = options_.subdivide.discs;
+    group.perimeter_weight = options_.form == SubdivideForm::quality ? options_.refine.quality_perimeter
+                                                                     : options_.refine.compact_perimeter;
+    return group;
+  }
+  void merge(Index target) {
+    const CellComplex complex = complex_of(labels_);
+    std::vector<Index> own(labels_.count);
+    std::iota(own.begin(), own.end(), Index{0});
+    Grouping grouping(work_, complex, std::move(own), labels_.count, group_options());
+    reason_ = merge_groups(work_, target, grouping);
+    labels_ = compact_labels(work_, grouping.spread(labels_.patch_of_face), grouping.alive());
+  }
+  void refine() {
+    if (options_.refine.swap.sweeps == 0 || labels_.count < 2) return;
+    const EvenCells even = cut_even_cells(work_, s_, labels_, options_.refine.even);
+    const CellComplex complex = complex_of(even.cells);
+    Grouping grouping(work_, complex, even.patch_of_cell, labels_.count, group_options());
+    swap_cells(work_, options_.refine.swap, grouping);
+    labels_ = compact_labels(work_, grouping.spread(even.cells.patch_of_face), grouping.alive());
+  }
+  void drop_slivers() {
+    MergeOptions slivers = options_.subdivide.merge;
+    slivers.keep_discs = options_.subdivide.discs;
+    labels_ = merge_patches(work_, s_, labels_, slivers);
+  }
+
+  const Work& work_;
+  const Network& network_;
+  const LayoutOptions& options_;
+  PatchSurface s_;
+  PatchLabels labels_;
+  std::string reason_;
+};
+
+}  // namespace
+
+Patches network_to_patches(const Work& work, const Surface& surface, const Network& network,
+                           const LayoutOptions& options) {
+  SubdivideOptions o = options.subdivide;
+  o.patches = options.patches;
+  const bool by_error = options.form != SubdivideForm::faithful;
+  if (by_error && options.patches > 0) return ErrorDriven(work, surface, network, options).run(0, {});
+  Subdivision s = subdivide(work, network.refined, surface.face_normal, surface.mean_edge, o);
+  if (!by_error) return from_subdivision(std::move(s));
+  return ErrorDriven(work, surface, network, options).run(s.labels.count, s.labels);
 }
 
 }  // namespace intarsia::graph

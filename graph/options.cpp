@@ -7,6 +7,7 @@ LayoutOptions robust_options() { return {}; }
 LayoutOptions paper_options(std::uint64_t seed) {
   LayoutOptions o;
   o.mode = Mode::paper;
+  o.form = SubdivideForm::faithful;
   o.seed = seed;
   o.barrier = false;
   o.sharp.enabled = false;

@@ -3,6 +3,9 @@
 
 #include <cstdint>
 
+#include "kernels/cells/cell_complex.h"
+#include "kernels/cells/group.h"
+#include "kernels/cells/swap_cells.h"
 #include "kernels/curvature/compute_curvature.h"
 #include "kernels/curves/connect_features.h"
 #include "kernels/layout/check_layout.h"
@@ -11,6 +14,7 @@
 #include "kernels/network/direction_field.h"
 #include "kernels/network/extension_cost.h"
 #include "kernels/network/snap_curves.h"
+#include "kernels/patches/even_cells.h"
 #include "kernels/patches/subdivide.h"
 #include "kernels/ridges/sharp_edges.h"
 #include "kernels/ridges/trace_ridges.h"
@@ -20,17 +24,36 @@ namespace intarsia::graph {
 
 enum class Mode : std::uint8_t { robust, paper };
 
+// How the network's patches become the wanted number (section 10; lessons 7, 8 and 15).
+enum class SubdivideForm : std::uint8_t {
+  faithful,  // the paper's: variational shape approximation inside each patch of the network
+  compact,   // the network kept, new seeds where the reconstruction is worst, borders refined by cells
+  quality,   // three times as many, merged by reconstruction error, borders refined by cells
+};
+
+struct RefineOptions {
+  Real compact_perimeter = 1e-5;  // w of sum of P^2 / (4 pi)
+  Real quality_perimeter = 1e-6;
+  Real over_segment = 3;          // quality: times the wanted number
+  kernels::GroupOptions group;    // its perimeter_weight and discs are set from the above
+  kernels::CellOptions cell;
+  kernels::EvenCellOptions even;
+  kernels::SwapOptions swap;
+};
+
 // How strong a feature must be to enter the network.
 struct ChoiceOptions {
   Real min_saliency = 0.04;  // integral of the turn angle along a connected component, radians x diagonals
   Real weakest = 0.01;       // lowest threshold a budget may go down to
   Index most_patches = 60;   // automatic: a higher threshold where the network would enclose more than this
   Real budget = 0.8;         // with a wanted number N: the network encloses at most this share of N
+  Real quality_budget = 1.5;  // the same for quality: what the network has too many is merged
   int steps = 7;             // bisection steps on the logarithm of the threshold
 };
 
 struct LayoutOptions {
   Mode mode = Mode::robust;
+  SubdivideForm form = SubdivideForm::compact;
   std::uint64_t seed = 0;  // paper mode: random seeds of the subdivision
   Index patches = 0;       // wanted number of patches; 0 = automatic
   bool barrier = true;     // fits do not cross sharp edges
@@ -44,6 +67,7 @@ struct LayoutOptions {
   kernels::DirectionFieldOptions direction;
   kernels::ExtensionOptions extension;
   kernels::SubdivideOptions subdivide;
+  RefineOptions refine;
   kernels::SmoothOptions smooth;
   kernels::CrossOptions cross;
   kernels::CheckOptions check;

@@ -32,6 +32,7 @@ void visit_options(Options& o, V&& v) {
   v("strength", o.curves.paper_filter.min_strength, "paper mode: least curve strength (T)", 0.0, 1e12);
   v("network.most-patches", o.choice.most_patches, "automatic: raise the threshold beyond so many patches", 1, 1e9);
   v("network.budget", o.choice.budget, "share of --patches that the network itself may enclose", 0.0, 4.0);
+  v("network.quality-budget", o.choice.quality_budget, "the same for --subdivide quality", 0.0, 4.0);
   v("network.snap", o.snap.snap, "edge points nearer to a vertex than this share of the edge move there", 0.0, 0.5);
   v("extend.cone", o.extension.cone, "degrees between the ideal direction and a step", 10.0, 90.0);
   v("extend.feedback", o.extension.feedback, "pull towards the ideal curve (kappa)", 0.0, 4.0);
@@ -41,6 +42,12 @@ void visit_options(Options& o, V&& v) {
   v("patches.trim", o.subdivide.split.trim, "share of the area left out at each end of the spread", 0.0, 0.45);
   v("patches.tiny-area", o.subdivide.merge.tiny_area, "smaller shares of the surface are merged", 0.0, 0.5);
   v("patches.discs", o.subdivide.discs, "cut patches until each is a disc", 0, 1);
+  v("refine.compact-perimeter", o.refine.compact_perimeter, "compact: price of P^2 / 4 pi against error", 0.0, 1.0);
+  v("refine.quality-perimeter", o.refine.quality_perimeter, "quality: price of P^2 / 4 pi against error", 0.0, 1.0);
+  v("refine.salience", o.refine.group.salience_weight, "price of features inside patches", 0.0, 1.0);
+  v("refine.over-segment", o.refine.over_segment, "quality: patches before merging, times --patches", 1.0, 10.0);
+  v("refine.cells", o.refine.even.per_patch, "cells of an average patch that may change sides", 2, 200);
+  v("refine.sweeps", o.refine.swap.sweeps, "moves per cell at most; 0 = borders are not refined", 0, 100);
   v("smooth.iterations", o.smooth.iterations, "steps of boundary smoothing", 0, 1000);
   v("smooth.length-weight", o.smooth.length_weight, "length against alignment in Eq. 8 (lambda)", 0.001, 1000.0);
   v("smooth.reach", o.smooth.free_reach, "how far a free border may move, mean edges", 0.0, 10.0);

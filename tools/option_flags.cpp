@@ -12,6 +12,10 @@ void add_common_flags(CLI::App& app, CommonFlags& flags) {
   app.add_option("--mode", flags.mode, "robust, or paper (the letter of Cao, Yan, Wonka 2014)")
       ->check(CLI::IsMember({"robust", "paper"}))
       ->capture_default_str();
+  app.add_option("--subdivide", flags.subdivide,
+                 "compact: new seeds and borders where they make the rebuilt surface better; quality: over-segment and "
+                 "merge by that error, better yet and more winding; faithful: the paper's. Default: compact")
+      ->check(CLI::IsMember({"compact", "quality", "faithful"}));
   app.add_option("--order", flags.order, "fixed: same bits on any number of threads; relaxed: to show what that costs")
       ->check(CLI::IsMember({"fixed", "relaxed"}))
       ->capture_default_str();
@@ -42,6 +46,10 @@ void OptionFlags::add_to(CLI::App& app) {
 graph::LayoutOptions OptionFlags::options(const CommonFlags& common) const {
   graph::LayoutOptions options = common.mode == "paper" ? graph::paper_options(common.seed) : graph::robust_options();
   options.seed = common.seed;
+  if (!common.subdivide.empty())
+    options.form = common.subdivide == "faithful"  ? graph::SubdivideForm::faithful
+                   : common.subdivide == "quality" ? graph::SubdivideForm::quality
+                                                   : graph::SubdivideForm::compact;
   std::vector<Real> given;
   graph::visit_options(given_values_, [&](const char*, const auto& value, const char*, auto, auto) {
     given.push_back(static_cast<Real>(value));

@@ -12,7 +12,7 @@ namespace intarsia::tools {
 
 // Settings every command that runs stages has.
 struct CommonFlags {
-  std::string mode = "robust", order = "fixed", report, trace;
+  std::string mode = "robust", subdivide, order = "fixed", report, trace;
   int threads = 0;
   std::uint64_t seed = 0;
   bool quiet = false;

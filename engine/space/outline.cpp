@@ -1,0 +1,122 @@
+#include "engine/space/outline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/space/point_triangle.h"
+
+namespace intarsia {
+namespace {
+
+Real length_of(std::span<const Vec3> p) {
+  Real length = 0;
+  for (std::size_t i = 1; i < p.size(); ++i) length += (p[i] - p[i - 1]).norm();
+  return length;
+}
+
+// Appends the start and the inner points of `steps` even steps along p; not its end.
+void sample_piece(std::span<const Vec3> p, Real length, Index steps, std::vector<Vec3>& out) {
+  out.push_back(p.front());
+  Real before = 0;
+  std::size_t i = 1;
+  for (Index k = 1; k < steps; ++k) {
+    const Real at = length * k / steps;
+    Real step = (p[i] - p[i - 1]).norm();
+    while (before + step < at && i + 1 < p.size()) {
+      before += step, ++i;
+      step = (p[i] - p[i - 1]).norm();
+    }
+    const Real t = step > 0 ? std::clamp((at - before) / step, Real{0}, Real{1}) : 0;
+    out.push_back(p[i - 1] + t * (p[i] - p[i - 1]));
+  }
+}
+
+void sample_loops(const Outline& o, Index loop_points, OutlineScratch& s) {
+  s.point.clear();
+  s.offset.assign(1, 0);
+  const std::span<const Vec3> all = o.point;
+  const auto piece = [&](Index k) { return all.subspan(o.piece[k], o.piece[k + 1] - o.piece[k]); };
+  Real longest = 0;
+  for (Index l = 0; l < o.loops(); ++l) {
+    Real length = 0;
+    for (Index k = o.loop[l]; k < o.loop[l + 1]; ++k) length += length_of(piece(k));
+    longest = std::max(longest, length);
+  }
+  for (Index l = 0; l < o.loops(); ++l) {
+    const Index pieces = o.loop[l + 1] - o.loop[l];
+    const Index least = pieces == 1 ? 8 : pieces == 2 ? 2 : 1;
+    for (Index k = o.loop[l]; k < o.loop[l + 1]; ++k) {
+      const Real length = length_of(piece(k));
+      const Real wanted = longest > 0 ? std::round(length / longest * loop_points) : 1;
+      sample_piece(piece(k), length, std::max(least, static_cast<Index>(wanted)), s.point);
+    }
+    s.offset.push_back(static_cast<Index>(s.point.size()));
+  }
+}
+
+// The nearest triangle of each sample; the distance to the plane of a triangle rules most of them out.
+Real sum_of_squares(const WeightedPoints& samples, std::span<const Vec3> point,
+                    std::span<const std::array<Index, 3>> triangle, std::vector<Vec3>& normal) {
+  normal.clear();
+  for (const auto& [a, b, c] : triangle) {
+    const Vec3 n = (point[b] - point[a]).cross(point[c] - point[a]);
+    const Real length = n.norm();
+    normal.push_back(length > 0 ? Vec3(n / length) : Vec3::Zero());
+  }
+  Real sum = 0;
+  for (std::size_t i = 0; i < samples.point.size(); ++i) {
+    const Vec3 p = samples.point[i];
+    Real least = std::numeric_limits<Real>::infinity();
+    for (std::size_t t = 0; t < triangle.size(); ++t) {
+      const auto& [a, b, c] = triangle[t];
+      const Real height = normal[t].dot(p - point[a]);
+      if (height * height < least)
+        least = std::min(least, (p - closest_on_triangle(p, point[a], point[b], point[c])).squaredNorm());
+    }
+    sum += samples.weight[i] * least;
+  }
+  return sum;
+}
+
+}  // namespace
+
+Real Outline::length() const {
+  Real total = 0;
+  for (std::size_t k = 0; k + 1 < piece.size(); ++k)
+    total += length_of(std::span(point).subspan(piece[k], piece[k + 1] - piece[k]));
+  return total;
+}
+
+Real outline_error(const Outline& outline, const WeightedPoints& samples, const OutlineOptions& options,
+                   OutlineScratch& s) {
+  if (samples.point.empty()) return 0;
+  if (outline.loops() > 0) {
+    sample_loops(outline, options.loop_points, s);
+    const LoopsTriangulation t = triangulate_loops(s.point, s.offset, {}, options.loops, s.polygon);
+    if (t.ok && !t.triangle.empty()) return sum_of_squares(samples, s.point, t.triangle, s.normal);
+  }
+  Vec3 mean = Vec3::Zero();
+  Real weight = 0;
+  for (std::size_t i = 0; i < samples.point.size(); ++i)
+    mean += samples.weight[i] * samples.point[i], weight += samples.weight[i];
+  if (weight > 0) mean /= weight;
+  Real sum = 0;
+  for (std::size_t i = 0; i < samples.point.size(); ++i)
+    sum += samples.weight[i] * (samples.point[i] - mean).squaredNorm();
+  return sum;
+}
+
+void smooth_polyline(std::span<Vec3> p, int steps) {
+  if (p.size() < 3) return;
+  for (int k = 0; k < steps; ++k) {
+    Vec3 before = p[0];
+    for (std::size_t i = 1; i + 1 < p.size(); ++i) {
+      const Vec3 here = p[i];
+      p[i] = 0.5 * here + 0.25 * (before + p[i + 1]);
+      before = here;
+    }
+  }
+}
+
+}  // namespace intarsia

@@ -1,0 +1,58 @@
+// The border of a patch as polylines, and how well the patch is rebuilt from it: the error that subdivision looks at.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/space/triangulate_loops.h"
+
+namespace intarsia {
+
+// Loops of pieces of points. Pieces end at corners, which are kept when the loops are sampled; the last point of a
+// piece is the first one of the next.
+struct Outline {
+  std::vector<Vec3> point;
+  std::vector<Index> piece{0};  // piece -> first point; one more than pieces
+  std::vector<Index> loop{0};   // loop -> first piece; one more than loops
+
+  Index loops() const { return static_cast<Index>(loop.size() - 1); }
+  void clear() {
+    point.clear();
+    piece.assign(1, 0), loop.assign(1, 0);
+  }
+  // After the points of a piece (both ends included) have been appended to `point`.
+  void end_piece() { piece.push_back(static_cast<Index>(point.size())); }
+  void end_loop() { loop.push_back(static_cast<Index>(piece.size() - 1)); }
+  Real length() const;
+};
+
+// Points of a patch that stand for its area.
+struct WeightedPoints {
+  std::vector<Vec3> point;
+  std::vector<Real> weight;
+
+  void clear() { point.clear(), weight.clear(); }
+  void add(const Vec3& p, Real w) { point.push_back(p), weight.push_back(w); }
+};
+
+struct OutlineOptions {
+  Index loop_points = 48;  // even steps of the longest loop
+  LoopsOptions loops{.polygon = {.exact = false}, .bridges = 1, .combinations = 1};
+};
+
+struct OutlineScratch {
+  std::vector<Vec3> point, normal;
+  std::vector<Index> offset;
+  PolygonScratch polygon;
+};
+
+// Sum of weight times squared distance to the triangulation of the sampled loops; an estimate of the integral of the
+// squared distance over the patch. Without a triangulation (or without loops) the distance to the mean of the points.
+Real outline_error(const Outline& outline, const WeightedPoints& samples, const OutlineOptions& options,
+                   OutlineScratch& scratch);
+
+// Steps of averaging the inner points of a polyline with their neighbours, ends fixed: takes out the zigzag of mesh
+// edges.
+void smooth_polyline(std::span<Vec3> point, int steps);
+
+}  // namespace intarsia

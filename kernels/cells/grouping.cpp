@@ -1,0 +1,97 @@
+#include "kernels/cells/grouping.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/parallel/for_each.h"
+#include "engine/parallel/scratch_pool.h"
+
+namespace intarsia::kernels {
+
+Grouping::Grouping(const Work& work, const CellComplex& complex, std::vector<Index> group, Index groups,
+                   const GroupOptions& options)
+    : complex_(&complex),
+      options_(options),
+      group_(std::move(group)),
+      cells_(groups),
+      shape_(groups),
+      version_(groups, 0),
+      alive_(groups) {
+  for (Index c = 0; c < group_.size(); ++c) cells_[group_[c]].push_back(c);
+  std::vector<Index> all(groups);
+  for (Index g = 0; g < groups; ++g) all[g] = g;
+  refresh(work, std::move(all));
+}
+
+void Grouping::refresh(const Work& work, std::vector<Index> groups) {
+  auto pool = make_scratch_pool([] { return GroupScratch(); });
+  for_each_block(work, Cost::single, groups.size(), [&](std::size_t begin, std::size_t end, std::size_t) {
+    auto scratch = pool.borrow();
+    for (std::size_t i = begin; i < end; ++i)
+      shape_[groups[i]] = look(cells_[groups[i]], {}, std::numeric_limits<int>::max(), *scratch);
+  });
+}
+
+std::vector<Index> Grouping::neighbours(Index g) const {
+  std::vector<Index> found;
+  for (const Index c : cells_[g])
+    for (const Index h : complex_->cell_halves.row(c)) {
+      const Index o = complex_->half_cell[h ^ 1];
+      if (o != kNone && group_[o] != g) found.push_back(group_[o]);
+    }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+Real Grouping::total_cost() const {
+  Real sum = 0;
+  for (Index g = 0; g < size(); ++g)
+    if (is_alive(g)) sum += cost(g);
+  return sum;
+}
+
+Real Grouping::total_error() const {
+  Real sum = 0;
+  for (Index g = 0; g < size(); ++g)
+    if (is_alive(g)) sum += shape_[g].error;
+  return sum;
+}
+
+void Grouping::merge(const Work& work, Index into, Index from) {
+  for (const Index c : cells_[from]) group_[c] = into;
+  cells_[into].insert(cells_[into].end(), cells_[from].begin(), cells_[from].end());
+  std::sort(cells_[into].begin(), cells_[into].end());
+  cells_[from].clear();
+  ++version_[into], ++version_[from];
+  --alive_;
+  refresh(work, {into});
+}
+
+void Grouping::move(const Work& work, Index cell, Index to) {
+  const Index from = group_[cell];
+  group_[cell] = to;
+  std::erase(cells_[from], cell);
+  cells_[to].insert(std::lower_bound(cells_[to].begin(), cells_[to].end(), cell), cell);
+  ++version_[from], ++version_[to];
+  std::vector<Index> changed = neighbours(from);  // their corners may have moved
+  const std::vector<Index> more = neighbours(to);
+  changed.insert(changed.end(), more.begin(), more.end());
+  changed.push_back(from), changed.push_back(to);
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  refresh(work, std::move(changed));
+}
+
+std::vector<Index> Grouping::spread(std::span<const Index> cell_of_face) const {
+  std::vector<Index> name(size(), kNone), label(cell_of_face.size());
+  Index next = 0;
+  for (std::size_t f = 0; f < cell_of_face.size(); ++f) {
+    Index& n = name[group_[cell_of_face[f]]];
+    if (n == kNone) n = next++;
+    label[f] = n;
+  }
+  return label;
+}
+
+}  // namespace intarsia::kernels
