@@ -34,19 +34,34 @@ struct PolygonTriangulation {
 
 // Memory that calls share; one per thread.
 struct PolygonScratch {
-  std::vector<Real> cost;
-  std::vector<std::array<double, 3>> normal;
-  std::vector<Index> apex, offset, order;
+  // A triangle behind a chord and the least cost of what lies behind the chord with it.
+  struct Candidate {
+    Real cost, flag, x, y, z;  // unit normal; flag 0 without
+    Index apex;
+  };
+  std::vector<Real> real;
+  std::vector<Index> apex, size, order;
+  std::vector<std::size_t> first;
+  std::vector<Candidate> candidate, fresh;
+  std::vector<std::uint8_t> forbidden;
+};
+
+// Of a polygon that bridges join from several loops. A tube closed by two lids has less area than the tube itself, so
+// triangles with all corners on one loop are not allowed where they face another loop's middle (within 45 degrees,
+// either way): flat arms of a disc with holes stay free, lids of a tube do not.
+struct BridgedLoops {
+  std::span<const Index> loop;   // per point
+  std::span<const Vec3> middle;  // per loop
 };
 
 // id: the same number marks copies of one point (the two sides of a bridge); empty: all differ. No chord joins two
-// copies of one point, and none doubles a polygon edge (as chords between copies of the ends of a bridge would): a
-// bridged annulus stays a tube instead of becoming two discs.
+// copies of one point, and none doubles a polygon edge (as chords between copies of the ends of a bridge would).
 // Bends count only between triangles that both have an area above 1e-14 of the squared perimeter: never NaN. A bend
 // across the edges of a bridge (two polygon edges with the same ids) is not counted.
 // Requires: finite points; id empty or one per point.
 // Ensures: ties go to the smallest apex; O(n^3) expected.
 PolygonTriangulation triangulate_polygon(std::span<const Vec3> point, std::span<const Index> id,
-                                         const PolygonOptions& options, PolygonScratch& scratch);
+                                         const PolygonOptions& options, PolygonScratch& scratch,
+                                         const BridgedLoops* bridged = nullptr);
 
 }  // namespace intarsia
