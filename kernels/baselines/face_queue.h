@@ -1,6 +1,7 @@
 // Growing regions over faces from seeds, best fit first (Cohen-Steiner, Alliez, Desbrun 2004), with a queue of buckets.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -67,28 +68,36 @@ class FaceQueue {
   std::uint64_t top_ = 0;
 };
 
-// Grows region r from seed[r], and further ones from where they stand: region[f] is kNone (free) or fixed.
+// Grows the regions on from where they stand: region[f] is kNone (free) or fixed.
 // key(face, region) >= 0: how badly a face fits; allowed(face, region): whether it may join at all.
-// Ensures: every region stays connected; faces that no region reaches keep kNone.
+// Ensures: connected regions stay connected; faces that no region reaches keep kNone.
 template <class Key, class Allowed>
-void grow_faces(const Work& work, const FaceGraph& graph, std::span<const Index> seed, std::span<Index> region,
-                FaceQueue& queue, const Key& key, const Allowed& allowed) {
-  const auto push_around = [&](Index f, Index r) {
+void grow_on(const Work& work, const FaceGraph& graph, std::span<Index> region, FaceQueue& queue, const Key& key,
+             const Allowed& allowed) {
+  const auto push_around = [&](Index f) {
     for (const Index o : graph.around(f))
-      if (o != kNone && region[o] == kNone && allowed(o, r)) queue.push(key(o, r), o, r);
+      if (o != kNone && region[o] == kNone && allowed(o, region[f])) queue.push(key(o, region[f]), o, region[f]);
   };
   queue.clear();
-  for (Index r = 0; r < seed.size(); ++r)
-    if (seed[r] != kNone) region[seed[r]] = r;
-  for (Index r = 0; r < seed.size(); ++r)
-    if (seed[r] != kNone) push_around(seed[r], r);
+  for (Index f = 0; f < graph.faces(); ++f)
+    if (region[f] != kNone) push_around(f);
   for (std::size_t step = 0; !queue.empty(); ++step) {
     if (step % 4096 == 0) work.check();
     const FaceQueue::Entry e = queue.pop();
     if (region[e.face] != kNone) continue;
     region[e.face] = e.region;
-    push_around(e.face, e.region);
+    push_around(e.face);
   }
+}
+
+// The same from one face a region; kNone: the region has none.
+template <class Key, class Allowed>
+void grow_from(const Work& work, const FaceGraph& graph, std::span<const Index> seed, std::span<Index> region,
+               FaceQueue& queue, const Key& key, const Allowed& allowed) {
+  std::fill(region.begin(), region.end(), kNone);
+  for (Index r = 0; r < seed.size(); ++r)
+    if (seed[r] != kNone) region[seed[r]] = r;
+  grow_on(work, graph, region, queue, key, allowed);
 }
 
 }  // namespace intarsia::kernels

@@ -119,16 +119,52 @@ void regrow(const Work& work, const FaceGraph& g, NormalRegions& regions, FaceQu
   std::vector<Vec3> proxy(count);
   for (Index r = 0; r < count; ++r) proxy[r] = unit_or_zero(regions.sum[r]);
   const std::vector<Index> seed = best_faces(g, regions.region, proxy);
-  std::fill(regions.region.begin(), regions.region.end(), kNone);
   const auto always = [](Index, Index) { return true; };
   if (area_in_key)
-    grow_faces(
+    grow_from(
         work, g, seed, regions.region, queue,
         [&](Index f, Index r) { return g.area[f] * deviation(g.normal[f], proxy[r]); }, always);
   else
-    grow_faces(
+    grow_from(
         work, g, seed, regions.region, queue, [&](Index f, Index r) { return deviation(g.normal[f], proxy[r]); },
         always);
+  refit(g, regions, count);
+}
+
+void regrow_borders(const Work& work, const FaceGraph& g, NormalRegions& regions, FaceQueue& queue, int rings) {
+  const Index count = regions.count(), n = g.faces();
+  std::vector<Index>& region = regions.region;
+  std::vector<std::uint8_t> loose(n, 0);
+  std::vector<Index> band, next;
+  for (Index f = 0; f < n; ++f)
+    for (const Index o : g.around(f))
+      if (o != kNone && region[o] != region[f] && !loose[f]) loose[f] = 1, band.push_back(f);
+  for (int ring = 1; ring < rings; ++ring, band.swap(next), next.clear())
+    for (const Index f : band)
+      for (const Index o : g.around(f))
+        if (o != kNone && !loose[o]) loose[o] = 1, next.push_back(o);
+  // Of what is left of a region its largest piece stays; where nothing is left, the best-fitting face.
+  std::vector<Index> kept(n);
+  for (Index f = 0; f < n; ++f) kept[f] = loose[f] ? kNone : region[f];
+  const PatchLabels pieces = connected_pieces(g, kept);
+  std::vector<Index> size(pieces.count, 0), largest(count, kNone);
+  for (const Index p : pieces.patch_of_face) ++size[p];
+  for (Index f = 0; f < n; ++f) {
+    if (kept[f] == kNone) continue;
+    Index& best = largest[kept[f]];
+    const Index p = pieces.patch_of_face[f];
+    if (best == kNone || size[p] > size[best]) best = p;
+  }
+  std::vector<Vec3> proxy(count);
+  for (Index r = 0; r < count; ++r) proxy[r] = unit_or_zero(regions.sum[r]);
+  const std::vector<Index> seed = best_faces(g, region, proxy);
+  for (Index f = 0; f < n; ++f)
+    region[f] = kept[f] != kNone && largest[kept[f]] == pieces.patch_of_face[f] ? kept[f] : kNone;
+  for (Index r = 0; r < count; ++r)
+    if (largest[r] == kNone) region[seed[r]] = r;
+  grow_on(
+      work, g, region, queue, [&](Index f, Index r) { return deviation(g.normal[f], proxy[r]); },
+      [](Index, Index) { return true; });
   refit(g, regions, count);
 }
 
@@ -150,8 +186,7 @@ Halves cut_in_two(const Work& work, const FaceGraph& g, const NormalRegions& reg
     std::vector<Vec3> proxy(2 * std::size_t{count});
     for (Index h = 0; h < 2 * count; ++h) proxy[h] = unit_or_zero(parts.sum[h]);
     const std::vector<Index> seed = best_faces(g, half, proxy);
-    std::fill(half.begin(), half.end(), kNone);
-    grow_faces(
+    grow_from(
         work, g, seed, half, queue, [&](Index f, Index h) { return deviation(g.normal[f], proxy[h]); }, inside);
   }
   parts.region = half;

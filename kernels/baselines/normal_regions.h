@@ -31,6 +31,10 @@ void refit(const FaceGraph& graph, NormalRegions& regions, Index count);
 // Requires: one region at least in every component of the graph. Ensures: regions connected, sums up to date.
 void regrow(const Work& work, const FaceGraph& graph, NormalRegions& regions, FaceQueue& queue, bool area_in_key);
 
+// The same, but only faces within `rings` steps of another region are given up and grown again, so that what a region
+// has reached past badly fitting faces is not lost.
+void regrow_borders(const Work& work, const FaceGraph& graph, NormalRegions& regions, FaceQueue& queue, int rings);
+
 // Every region cut in two: side of each face (0 or 1), and what the energy would fall by, per region; negative where a
 // region cannot be cut. Both sides connected.
 struct Halves {

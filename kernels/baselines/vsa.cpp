@@ -9,6 +9,8 @@
 namespace intarsia::kernels {
 namespace {
 
+constexpr int kBorderSteps = 3, kBorderRings = 3;
+
 enum Start { halving, farthest, merging };
 
 class Fit {
@@ -76,8 +78,7 @@ class Fit {
       work_.check();
       insert(static_cast<Index>(std::max_element(gap.begin(), gap.end()) - gap.begin()));
     }
-    std::fill(now_.region.begin(), now_.region.end(), kNone);
-    grow_faces(
+    grow_from(
         work_, graph_, seed, now_.region, queue_,
         [&](Index f, Index r) { return (graph_.normal[f] - smooth[seed[r]]).squaredNorm(); },
         [](Index, Index) { return true; });
@@ -99,6 +100,11 @@ class Fit {
       if (options_.teleport_every > 0 && teleport(work_, graph_, now_, queue_) > 0) keep_if_better();
       for (int i = 0; i < std::min(round, options_.iterations - done); ++i) {
         regrow(work_, graph_, now_, queue_, options_.area_in_key);
+        keep_if_better();
+      }
+      now_ = best_;
+      for (int i = 0; i < kBorderSteps; ++i) {
+        regrow_borders(work_, graph_, now_, queue_, kBorderRings);
         keep_if_better();
       }
       if (!(best_energy_ < before * (1 - options_.tolerance))) return;
