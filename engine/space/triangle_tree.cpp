@@ -144,6 +144,7 @@ struct TriangleTree::Impl {
   std::vector<Node> node;
   std::vector<Leaf> leaf;
   std::vector<Index> leaf_of;  // triangle -> leaf
+  std::vector<Index> order;
 
   Impl(const Work& work, const TrianglesView& triangles);
 
@@ -157,7 +158,7 @@ struct TriangleTree::Impl {
 };
 
 TriangleTree::Impl::Impl(const Work& work, const TrianglesView& triangles) {
-  const SplitTriangles split = split_triangles(work, triangles);
+  SplitTriangles split = split_triangles(work, triangles);
   node.resize(split.node.size());
   leaf.resize(split.leaf.size());
   leaf_of.resize(triangles.count());
@@ -183,6 +184,7 @@ TriangleTree::Impl::Impl(const Work& work, const TrianglesView& triangles) {
       leaf_of[t] = static_cast<Index>(n);
     }
   });
+  order = std::move(split.order);
 }
 
 TriangleTree::TriangleTree(const Work& work, const TrianglesView& triangles) {
@@ -192,6 +194,8 @@ TriangleTree::TriangleTree(const Work& work, const TrianglesView& triangles) {
 TriangleTree::~TriangleTree() = default;
 TriangleTree::TriangleTree(TriangleTree&&) noexcept = default;
 TriangleTree& TriangleTree::operator=(TriangleTree&&) noexcept = default;
+
+std::span<const Index> TriangleTree::order() const { return impl_->order; }
 
 ClosestTriangle TriangleTree::closest(const Vec3& p, Index hint) const {
   const Impl& tree = *impl_;

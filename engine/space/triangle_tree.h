@@ -41,6 +41,9 @@ class TriangleTree {
   // First triangle hit by the ray from origin along the unit direction, farther than `least`; distance, or infinity.
   Real first_hit(const Vec3& origin, const Vec3& direction, Real least) const;
 
+  // All triangles, neighbours in space near each other: the order in which hints help most.
+  std::span<const Index> order() const;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
