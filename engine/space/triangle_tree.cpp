@@ -27,6 +27,7 @@ struct alignas(64) Leaf {
 struct alignas(64) Node {
   Real low[3][kLanes], high[3][kLanes];
   Index child[kLanes];
+  Index count;
 };
 
 struct Entry {
@@ -35,47 +36,45 @@ struct Entry {
 };
 
 // Squared distances from p to the triangles of a leaf: operation by operation those of closest_on_triangle(), so that
-// the bits agree; sums run as in Eigen, (x + y) + z.
+// the bits agree; sums run as in Eigen, (x + y) + z. Choices are nested, since compilers take conjunctions of lane
+// masks apart lane by lane.
 #define INTARSIA_DOT(a, b) (a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
 INTARSIA_WIDE void distances2(const Leaf& leaf, const Real* p, Real* out) {
   const Lanes zero{}, one = zero + 1.0;
-  Lanes a[3], b[3], c[3], ab[3], ac[3], ap[3], bp[3], cp[3];
+  Lanes a[3], b[3], c[3], ab[3], ac[3], ap[3], bp[3], cp[3], bc[3], ca[3];
   for (int k = 0; k < 3; ++k) {
     a[k] = lanes_at(leaf.corner[k]), b[k] = lanes_at(leaf.corner[3 + k]), c[k] = lanes_at(leaf.corner[6 + k]);
-    ab[k] = b[k] - a[k], ac[k] = c[k] - a[k], ap[k] = p[k] - a[k], bp[k] = p[k] - b[k], cp[k] = p[k] - c[k];
+    ab[k] = b[k] - a[k], ac[k] = c[k] - a[k], bc[k] = c[k] - b[k], ca[k] = a[k] - c[k];
+    ap[k] = p[k] - a[k], bp[k] = p[k] - b[k], cp[k] = p[k] - c[k];
   }
   const Lanes d1 = INTARSIA_DOT(ab, ap), d2 = INTARSIA_DOT(ac, ap), d3 = INTARSIA_DOT(ab, bp),
               d4 = INTARSIA_DOT(ac, bp), d5 = INTARSIA_DOT(ab, cp), d6 = INTARSIA_DOT(ac, cp);
-  const auto at_a = (d1 <= zero) & (d2 <= zero), at_b = (d3 >= zero) & (d4 <= d3), at_c = (d6 >= zero) & (d5 <= d6);
   const Lanes vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4, sum = va + vb + vc;
-  const auto inside = (va > zero) & (vb > zero) & (vc > zero) & (sum > zero);
-
-  Lanes q[3];
   const Lanes s = vb / sum, t = vc / sum;
-  for (int k = 0; k < 3; ++k) q[k] = p[k] - (a[k] + s * ab[k] + t * ac[k]);
-  Lanes result = INTARSIA_DOT(q, q);
 
-  const auto settled = inside | at_a | at_b | at_c;
-  bool all = true;
-  for (std::size_t l = 0; l < kLanes; ++l) all = all && settled[l] != 0;
-  if (!all) {
-    Lanes bc[3], ca[3];
-    for (int k = 0; k < 3; ++k) bc[k] = c[k] - b[k], ca[k] = a[k] - c[k];
-    const Lanes ab2 = INTARSIA_DOT(ab, ab), bc2 = INTARSIA_DOT(bc, bc), ca2 = INTARSIA_DOT(ca, ca);
-    Lanes r = INTARSIA_DOT(ap, ab) / ab2, u = INTARSIA_DOT(bp, bc) / bc2, v = INTARSIA_DOT(cp, ca) / ca2;
-    r = ab2 > zero ? r : zero, u = bc2 > zero ? u : zero, v = ca2 > zero ? v : zero;
-    Lanes x[3], y[3], z[3];
-    for (int k = 0; k < 3; ++k) {
-      x[k] = r <= zero ? ap[k] : r >= one ? bp[k] : p[k] - (a[k] + r * ab[k]);
-      y[k] = u <= zero ? bp[k] : u >= one ? cp[k] : p[k] - (b[k] + u * bc[k]);
-      z[k] = v <= zero ? cp[k] : v >= one ? ap[k] : p[k] - (c[k] + v * ca[k]);
-    }
-    const Lanes x2 = INTARSIA_DOT(x, x), y2 = INTARSIA_DOT(y, y), z2 = INTARSIA_DOT(z, z);
-    const Lanes yz = y2 <= z2 ? y2 : z2, side = ((x2 <= y2) & (x2 <= z2)) ? x2 : yz;
-    result = inside ? result : side;
+  const Lanes ab2 = INTARSIA_DOT(ab, ab), bc2 = INTARSIA_DOT(bc, bc), ca2 = INTARSIA_DOT(ca, ca);
+  Lanes u = INTARSIA_DOT(ap, ab) / ab2, v = INTARSIA_DOT(bp, bc) / bc2, w = INTARSIA_DOT(cp, ca) / ca2;
+  u = ab2 > zero ? u : zero, v = bc2 > zero ? v : zero, w = ca2 > zero ? w : zero;
+  Lanes q[3], x[3], y[3], z[3];
+  for (int k = 0; k < 3; ++k) {
+    q[k] = p[k] - (a[k] + s * ab[k] + t * ac[k]);
+    x[k] = p[k] - (a[k] + u * ab[k]), y[k] = p[k] - (b[k] + v * bc[k]), z[k] = p[k] - (c[k] + w * ca[k]);
   }
   const Lanes a2 = INTARSIA_DOT(ap, ap), b2 = INTARSIA_DOT(bp, bp), c2 = INTARSIA_DOT(cp, cp);
-  result = at_a ? a2 : at_b ? b2 : at_c ? c2 : result;
+  Lanes x2 = INTARSIA_DOT(x, x), y2 = INTARSIA_DOT(y, y), z2 = INTARSIA_DOT(z, z);
+  x2 = u >= one ? b2 : x2, y2 = v >= one ? c2 : y2, z2 = w >= one ? a2 : z2;
+  x2 = u <= zero ? a2 : x2, y2 = v <= zero ? b2 : y2, z2 = w <= zero ? c2 : z2;
+  const Lanes yz = y2 <= z2 ? y2 : z2, side = x2 <= yz ? x2 : yz, inside = INTARSIA_DOT(q, q);
+
+  Lanes result = va > zero ? inside : side;
+  result = vb > zero ? result : side;
+  result = vc > zero ? result : side;
+  const Lanes at_c = d5 <= d6 ? c2 : result;
+  result = d6 >= zero ? at_c : result;
+  const Lanes at_b = d4 <= d3 ? b2 : result;
+  result = d3 >= zero ? at_b : result;
+  const Lanes at_a = d2 <= zero ? a2 : result;
+  result = d1 <= zero ? at_a : result;
   lanes_at(out) = result;
 }
 
@@ -103,7 +102,8 @@ INTARSIA_WIDE void entries(const Node& node, const Real* origin, const Real* inv
     enter = first > enter ? first : enter, leave = last < leave ? last : leave;
   }
   constexpr Real kSlack = 1e-12;
-  lanes_at(out) = enter * (1 - kSlack) <= leave * (1 + kSlack) ? enter * (1 - kSlack) : far;
+  enter = enter * (1 - kSlack), leave = leave * (1 + kSlack);
+  lanes_at(out) = enter <= leave ? enter : far;
 }
 
 // Distances along the ray to the triangles of a leaf (Moeller, Trumbore 1997), kFar where it misses them.
@@ -121,16 +121,18 @@ INTARSIA_WIDE void hits(const Leaf& leaf, const Real* origin, const Real* direct
   const Lanes q[3] = {from[1] * ab[2] - from[2] * ab[1], from[2] * ab[0] - from[0] * ab[2],
                       from[0] * ab[1] - from[1] * ab[0]};
   const Lanes v = (dx * q[0] + dy * q[1] + dz * q[2]) / det, t = INTARSIA_DOT(ac, q) / det;
-  const auto hit = (det != zero) & (u >= zero) & (v >= zero) & (u + v <= one) & (t > least);
-  lanes_at(out) = hit ? t : far;
+  Lanes least_part = u < v ? u : v;  // where det is 0, u + v is infinite or NaN, and so the next one negative or NaN
+  least_part = least_part < one - (u + v) ? least_part : one - (u + v);
+  const Lanes hit = t > least ? t : far;
+  lanes_at(out) = least_part >= zero ? hit : far;
 }
 #undef INTARSIA_DOT
 
 // The children of a node with bound(lane) <= limit, the farthest first, onto the stack.
 std::size_t push_children(const Node& node, const Real* bound, Real limit, Entry* stack, std::size_t top) {
   const std::size_t base = top;
-  for (std::size_t l = 0; l < kLanes; ++l) {
-    if (node.child[l] == kNone || !(bound[l] <= limit)) continue;
+  for (std::size_t l = 0; l < node.count; ++l) {
+    if (!(bound[l] <= limit)) continue;
     std::size_t at = top++;
     for (; at > base && stack[at - 1].bound < bound[l]; --at) stack[at] = stack[at - 1];
     stack[at] = {bound[l], node.child[l]};
@@ -163,6 +165,7 @@ TriangleTree::Impl::Impl(const Work& work, const TrianglesView& triangles) {
   leaf.resize(split.leaf.size());
   leaf_of.resize(triangles.count());
   for_each(work, Cost::medium, node.size(), [&](std::size_t n) {
+    node[n].count = split.node[n].count;
     for (std::size_t l = 0; l < kLanes; ++l) {
       const bool used = l < split.node[n].count;
       const SplitTriangles::Part part = used ? split.part[split.node[n].first + l] : SplitTriangles::Part{};
