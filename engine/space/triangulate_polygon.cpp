@@ -13,6 +13,7 @@ namespace {
 constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
 constexpr Real kPi = std::numbers::pi;
 constexpr Real kLid2 = 0.5;         // squared cosine of 45 degrees
+constexpr Index kMostExact = 256;   // points
 constexpr Real kLeastArea = 1e-14;  // of the squared perimeter: thinner triangles have no normal
 
 // A normal with its weight: (0, 0, 0, 0) for a triangle without area and for what lies outside the polygon.
@@ -21,37 +22,72 @@ struct Facing {
   Real dot(const Facing& o) const { return x * o.x + y * o.y + z * o.z; }
 };
 
-// Two chords' rows, for every apex m: chord (i, m) or (m, k) with what is best behind it.
+// What is known of the chords of one point, by their other end: the best triangle behind each and its cost.
 struct Row {
   const Real *cost, *weight, *flag, *x, *y, *z;
 };
 
 // What the triangles (i, m, k) of one chord look like, for every apex m.
 struct Fan {
-  Real *area, *flag, *x, *y, *z, *left, *right;
+  Real *area, *flag, *x, *y, *z, *left, *right, *sum;
 };
 
 // left, right: cost behind the chords (i, m), (m, k) if the best triangle behind each is taken, with its bend.
-INTARSIA_WIDE void open_fan(const Real* __restrict px, const Real* __restrict py, const Real* __restrict pz,
-                            const Real* ends, Real least_area, const Row& l, const Row& r, Index from, Index to,
-                            const Fan& out) {
+// sum: that of a triangulation, so no less than the optimum. Whole lanes are written around from .. to.
+INTARSIA_WIDE void open_fan(const Real* px, const Real* py, const Real* pz, const Real* ends, Real least_area,
+                            const Row& l, const Row& r, Index from, Index to, const Fan& out) {
+  const Lanes zero{}, one = zero + 1.0, half = zero + 0.5;
   const Real ax = ends[0], ay = ends[1], az = ends[2], vx = ends[3] - ax, vy = ends[4] - ay, vz = ends[5] - az;
-  const Real* __restrict lc = l.cost, * __restrict lw = l.weight, * __restrict lf = l.flag, * __restrict lx = l.x, * __restrict ly = l.y, * __restrict lz = l.z;
-  const Real* __restrict rc = r.cost, * __restrict rw = r.weight, * __restrict rf = r.flag, * __restrict rx = r.x, * __restrict ry = r.y, * __restrict rz = r.z;
-  Real* __restrict area = out.area, * __restrict flag = out.flag, * __restrict x = out.x, * __restrict y = out.y, * __restrict z = out.z, * __restrict left = out.left, * __restrict right = out.right;
-  for (Index m = from; m < to; ++m) {
-    const Real ux = px[m] - ax, uy = py[m] - ay, uz = pz[m] - az;
-    const Real cx = uy * vz - uz * vy, cy = uz * vx - ux * vz, cz = ux * vy - uy * vx;
-    const Real length = std::sqrt(cx * cx + cy * cy + cz * cz);
-    const bool wide = Real(0.5) * length > least_area;
-    const Real f = wide ? Real(1) : Real(0), scale = f / (wide ? length : Real(1));
-    const Real nx = cx * scale, ny = cy * scale, nz = cz * scale;
-    const Real bl = lw[m] * (f * lf[m] - (nx * lx[m] + ny * ly[m] + nz * lz[m]));
-    const Real br = rw[m] * (f * rf[m] - (nx * rx[m] + ny * ry[m] + nz * rz[m]));
-    area[m] = Real(0.5) * length, flag[m] = f, x[m] = nx, y[m] = ny, z[m] = nz;
-    left[m] = lc[m] + (bl > 0 ? bl : Real(0));
-    right[m] = rc[m] + (br > 0 ? br : Real(0));
+  for (std::size_t m = from / kLanes * kLanes; m < to; m += kLanes) {
+    const Lanes ux = lanes_at(px + m) - ax, uy = lanes_at(py + m) - ay, uz = lanes_at(pz + m) - az;
+    const Lanes cx = uy * vz - uz * vy, cy = uz * vx - ux * vz, cz = ux * vy - uy * vx;
+    const Lanes squared = cx * cx + cy * cy + cz * cz;
+    Lanes length;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) length[lane] = std::sqrt(squared[lane]);
+    const Lanes area = half * length;
+    const Lanes f = area > least_area ? one : zero, scale = area > least_area ? one / length : zero;
+    const Lanes nx = cx * scale, ny = cy * scale, nz = cz * scale;
+    const Lanes bl =
+        lanes_at(l.weight + m) *
+        (f * lanes_at(l.flag + m) - (nx * lanes_at(l.x + m) + ny * lanes_at(l.y + m) + nz * lanes_at(l.z + m)));
+    const Lanes br =
+        lanes_at(r.weight + m) *
+        (f * lanes_at(r.flag + m) - (nx * lanes_at(r.x + m) + ny * lanes_at(r.y + m) + nz * lanes_at(r.z + m)));
+    const Lanes left = lanes_at(l.cost + m) + (bl > 0.0 ? bl : zero);
+    const Lanes right = lanes_at(r.cost + m) + (br > 0.0 ? br : zero);
+    lanes_at(out.area + m) = area, lanes_at(out.flag + m) = f;
+    lanes_at(out.x + m) = nx, lanes_at(out.y + m) = ny, lanes_at(out.z + m) = nz;
+    lanes_at(out.left + m) = left, lanes_at(out.right + m) = right, lanes_at(out.sum + m) = area + (left + right);
   }
+}
+
+// Least of `least` and cost + weight * (flags - cosine) over the candidates of a chord. They ascend by cost and a bend
+// adds at least nothing, so the scan ends where the cost alone is no better.
+INTARSIA_WIDE Real least_with_bend(const PolygonScratch::Pack* pack, Index packs, Real weight, const Real* front,
+                                   Real least) {
+  const Lanes zero{};
+  for (Index p = 0; p < packs && pack[p].cost[0] < least; ++p) {
+    const auto& c = pack[p];
+    const Lanes bend = weight * (front[0] * lanes_at(c.flag) -
+                                 (front[1] * lanes_at(c.x) + front[2] * lanes_at(c.y) + front[3] * lanes_at(c.z)));
+    const Lanes cost = lanes_at(c.cost) + (bend > 0.0 ? bend : zero);
+    Real low[4];
+    for (std::size_t lane = 0; lane < 4; ++lane) low[lane] = cost[lane] < cost[lane + 4] ? cost[lane] : cost[lane + 4];
+    const Real even = low[0] < low[2] ? low[0] : low[2], odd = low[1] < low[3] ? low[1] : low[3];
+    const Real lowest = even < odd ? even : odd;
+    least = lowest < least ? lowest : least;
+  }
+  return least;
+}
+
+// A lower bound of the squared angle between two normals for every candidate of a pack: the first three terms of
+// acos(c)^2 = 2 u + u^2 / 3 + 4 u^3 / 45 + ..., u = 1 - c, all positive.
+INTARSIA_WIDE void least_angles2(const PolygonScratch::Pack& c, const Real* front, Real* out) {
+  const Lanes zero{};
+  const Lanes u =
+      front[0] * lanes_at(c.flag) - (front[1] * lanes_at(c.x) + front[2] * lanes_at(c.y) + front[3] * lanes_at(c.z));
+  const Lanes least = u * (2.0 + u * (1.0 / 3 + u * (4.0 / 45))) * (1 - 1e-12) - 1e-15;
+  lanes_at(out) = least > 0.0 ? least : zero;
 }
 
 Real angle_between(const Facing& a, const Facing& b) {
@@ -62,22 +98,23 @@ Real angle_between(const Facing& a, const Facing& b) {
 
 // The metrics. weight: of the chord that the bend is across, 0 on the polygon's own edges.
 // limit: candidates behind a chord that cost more are never chosen, whatever triangle is in front of it.
+// floor: no more than join(cost, bend), from a lower bound of the squared bend.
 struct AreaBend {
-  static constexpr bool fan_has_bends = true;
+  static constexpr bool kInFan = true;  // open_fan() knows this metric
   static Real triangle(Real area) { return area; }
   static Real join(Real a, Real b) { return a + b; }
   static Real bend(Real weight, const Facing& a, const Facing& b) {
     return std::max(Real(0), weight * (a.flag * b.flag - a.dot(b)));
   }
-  static Real limit(Real best, Real weight) { return best + 2 * weight; }
   static Real limit(Real best, Real weight, const Facing& a, const Facing& b) {
-    if (a.flag == 0 || b.flag == 0) return limit(best, weight);
+    if (a.flag == 0 || b.flag == 0) return best + 2 * weight;
     return best + weight * (Vec3(a.x, a.y, a.z) - Vec3(b.x, b.y, b.z)).norm();
   }
+  static Real limit(Real best, Real weight) { return best + 2 * weight; }
 };
 
 struct SquaredDihedral {
-  static constexpr bool fan_has_bends = false;
+  static constexpr bool kInFan = false;
   static Real triangle(Real area) { return area < kInfinity ? 0 : area; }
   static Real join(Real a, Real b) { return a + b; }
   static Real bend(Real weight, const Facing& a, const Facing& b) {
@@ -85,16 +122,18 @@ struct SquaredDihedral {
     return angle * angle;
   }
   static Real limit(Real best, Real weight) { return best + weight * kPi * kPi; }
-  static Real limit(Real best, Real weight, const Facing&, const Facing&) { return limit(best, weight); }
+  static Real floor(Real cost, Real bend2) { return cost + bend2; }
+  static Real ceiling(Real best) { return best; }
 };
 
 struct WorstDihedral {
-  static constexpr bool fan_has_bends = false;
+  static constexpr bool kInFan = false;
   static Real triangle(Real area) { return area < kInfinity ? 0 : area; }
   static Real join(Real a, Real b) { return std::max(a, b); }
   static Real bend(Real weight, const Facing& a, const Facing& b) { return weight * angle_between(a, b); }
   static Real limit(Real best, Real weight) { return std::max(best, weight * kPi); }
-  static Real limit(Real best, Real weight, const Facing&, const Facing&) { return limit(best, weight); }
+  static Real floor(Real cost, Real bend2) { return std::max(cost * cost, bend2); }  // squares of both
+  static Real ceiling(Real best) { return best * best; }
 };
 
 // State: chord (i, k), i < k, with the apex of the triangle behind it, that is on the side of i + 1 .. k - 1. What is
@@ -104,9 +143,13 @@ class Dynamic {
  public:
   Dynamic(std::span<const Vec3> point, const PolygonOptions& options, PolygonScratch& scratch,
           const BridgedLoops* bridged)
-      : n_(static_cast<Index>(point.size())), exact_(options.exact), scratch_(scratch), bridged_(bridged) {
-    const std::size_t matrix = std::size_t{n_} * n_;
-    scratch.real.resize(7 * matrix + 10 * std::size_t{n_});
+      : n_(static_cast<Index>(point.size())),
+        stride_(whole_lanes(n_)),
+        exact_(options.exact && n_ <= kMostExact),
+        scratch_(scratch),
+        bridged_(bridged) {
+    const std::size_t matrix = n_ * stride_;
+    scratch.real.resize(7 * matrix + 11 * stride_);
     scratch.apex.resize(matrix);
     Real* next = scratch.real.data();
     const auto take = [&](std::size_t count) {
@@ -115,8 +158,9 @@ class Dynamic {
       return taken;
     };
     for (Real** m : {&cost_, &weight_, &flag_, &nx_, &ny_, &nz_, &second_}) *m = take(matrix);
-    for (Real** v : {&x_, &y_, &z_, &fan_.area, &fan_.flag, &fan_.x, &fan_.y, &fan_.z, &fan_.left, &fan_.right})
-      *v = take(n_);
+    for (Real** v :
+         {&x_, &y_, &z_, &fan_.area, &fan_.flag, &fan_.x, &fan_.y, &fan_.z, &fan_.left, &fan_.right, &fan_.sum})
+      *v = take(stride_);
     Real perimeter = 0;
     for (Index i = 0; i < n_; ++i) {
       x_[i] = point[i].x(), y_[i] = point[i].y(), z_[i] = point[i].z();
@@ -126,23 +170,22 @@ class Dynamic {
     std::fill(cost_, cost_ + 7 * matrix, Real(0));
     for (Index i = 0; i < n_; ++i)
       for (Index k = i + 2; k < n_; ++k) {
-        const bool edge = i == 0 && k == n_ - 1;
-        const Real weight = edge                    ? 0
-                            : Metric::fan_has_bends ? options.bend_weight * (point[k] - point[i]).squaredNorm()
-                                                    : 1;
+        if (i == 0 && k == n_ - 1) continue;
+        const Real weight = Metric::kInFan ? options.bend_weight * (point[k] - point[i]).squaredNorm() : 1;
         weight_[at(i, k)] = weight_[at(k, i)] = weight;
       }
+    if (!exact_) return;
     scratch.first.assign(matrix, 0);
-    scratch.size.assign(matrix, 0);
-    scratch.candidate.clear();
+    scratch.packs.assign(matrix, 0);
+    scratch.pack.clear();
+    scratch.pack_apex.clear();
   }
 
   // forbidden: n x n, or empty.
   bool solve(const std::vector<std::uint8_t>& forbidden) {
-    for (Index span = 2; span < n_; ++span)
-      for (Index i = 0; i + span < n_; ++i) {
-        const Index k = i + span;
-        if (!forbidden.empty() && forbidden[at(i, k)])
+    for (Index i = n_ - 2; i-- > 0;)
+      for (Index k = i + 2; k < n_; ++k) {
+        if (!forbidden.empty() && forbidden[std::size_t{i} * n_ + k])
           close(i, k);
         else if (exact_)
           solve_exact(i, k);
@@ -154,7 +197,6 @@ class Dynamic {
 
   void collect(PolygonTriangulation& out) {
     out.cost = cost_[at(0, n_ - 1)];
-    out.triangle.clear();
     out.triangle.reserve(n_ - 2);
     auto& stack = scratch_.order;  // triples (i, k, apex)
     stack.clear();
@@ -166,7 +208,8 @@ class Dynamic {
       const Index m = stack.back(), k = stack[stack.size() - 2], i = stack[stack.size() - 3];
       stack.resize(stack.size() - 3);
       out.triangle.push_back({i, m, k});
-      const Facing front = facing(i, m, k);
+      open(i, k, m, m + 1);
+      const Facing front = in_fan(m);
       if (k - m > 1) push(m, k, behind(m, k, front).apex);
       if (m - i > 1) push(i, m, behind(i, m, front).apex);
     }
@@ -178,24 +221,20 @@ class Dynamic {
     Index apex;
   };
 
-  std::size_t at(Index i, Index k) const { return std::size_t{i} * n_ + k; }
+  std::size_t at(Index i, Index k) const { return i * stride_ + k; }
   Row row(Index i) const {
     const std::size_t o = at(i, 0);
     return {cost_ + o, weight_ + o, flag_ + o, nx_ + o, ny_ + o, nz_ + o};
   }
   Facing head(Index i, Index k) const { return {flag_[at(i, k)], nx_[at(i, k)], ny_[at(i, k)], nz_[at(i, k)]}; }
   Facing in_fan(Index m) const { return {fan_.flag[m], fan_.x[m], fan_.y[m], fan_.z[m]}; }
-  Facing facing(Index i, Index m, Index k) {
-    open(i, k, m, m + 1);
-    return in_fan(m);
-  }
 
   void open(Index i, Index k, Index from, Index to) {
     const Real ends[6] = {x_[i], y_[i], z_[i], x_[k], y_[k], z_[k]};
     open_fan(x_, y_, z_, ends, least_area_, row(i), row(k), from, to, fan_);
     if (bridged_ && bridged_->loop[i] == bridged_->loop[k])
       for (Index m = from; m < to; ++m)
-        if (bridged_->loop[m] == bridged_->loop[i] && is_lid(i, m, k)) fan_.area[m] = kInfinity;
+        if (bridged_->loop[m] == bridged_->loop[i] && is_lid(i, m, k)) fan_.area[m] = fan_.sum[m] = kInfinity;
   }
   bool is_lid(Index i, Index m, Index k) const {
     const Vec3 normal(fan_.x[m], fan_.y[m], fan_.z[m]);
@@ -220,33 +259,48 @@ class Dynamic {
     }
   }
 
-  // The least cost behind chord (i, k) if the triangle in front of it faces so. Candidates are in the order of their
-  // cost, and a bend adds at least nothing: the scan ends where the cost alone is no better.
+  // The least cost behind chord (i, k) if the triangle in front of it faces so; ties to the smallest apex.
   Behind behind(Index i, Index k, const Facing& front) const {
     const std::size_t c = at(i, k);
     Behind best{Metric::join(cost_[c], Metric::bend(weight_[c], front, head(i, k))), scratch_.apex[c]};
-    if (best.cost > second_[c]) scan(c, front, best);
+    if (best.cost >= second_[c]) scan(c, front, best);
     return best;
   }
   void scan(std::size_t c, const Facing& front, Behind& best) const {
-    const PolygonScratch::Candidate* list = scratch_.candidate.data() + scratch_.first[c];
-    for (Index q = 0; q < scratch_.size[c] && list[q].cost < best.cost; ++q) {
-      const Facing f{list[q].flag, list[q].x, list[q].y, list[q].z};
-      const Real cost = Metric::join(list[q].cost, Metric::bend(weight_[c], front, f));
-      if (cost < best.cost) best = {cost, list[q].apex};
+    const Real f[4] = {front.flag, front.x, front.y, front.z};
+    for (Index p = 0; p < scratch_.packs[c]; ++p) {
+      const PolygonScratch::Pack& pack = scratch_.pack[scratch_.first[c] + p];
+      if (pack.cost[0] > best.cost) return;
+      const Index* apex = scratch_.pack_apex.data() + (scratch_.first[c] + p) * kLanes;
+      alignas(64) Real least[kLanes] = {};
+      if constexpr (!Metric::kInFan) least_angles2(pack, f, least);
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        if constexpr (!Metric::kInFan)
+          if (Metric::floor(pack.cost[lane], least[lane]) > Metric::ceiling(best.cost)) continue;
+        if (pack.cost[lane] > best.cost) continue;
+        const Real cost = Metric::join(pack.cost[lane], Metric::bend(weight_[c], front, facing(pack, lane)));
+        if (cost < best.cost || (cost == best.cost && apex[lane] < best.apex)) best = {cost, apex[lane]};
+      }
     }
+  }
+  static Facing facing(const PolygonScratch::Pack& p, std::size_t lane) {
+    return {p.flag[lane], p.x[lane], p.y[lane], p.z[lane]};
   }
 
   // Cost behind both sides of triangle (i, m, k); the fan is open.
   Real sides(Index i, Index m, Index k) const {
-    if constexpr (Metric::fan_has_bends) {
-      Behind l{fan_.left[m], kNone}, r{fan_.right[m], kNone};
-      if (l.cost > second_[at(i, m)]) scan(at(i, m), in_fan(m), l);
-      if (r.cost > second_[at(k, m)]) scan(at(m, k), in_fan(m), r);
-      return l.cost + r.cost;
+    if constexpr (Metric::kInFan) {
+      const Real front[4] = {fan_.flag[m], fan_.x[m], fan_.y[m], fan_.z[m]};
+      const auto least = [&](std::size_t c, Real with_head) {
+        if (with_head <= second_[c]) return with_head;
+        return least_with_bend(scratch_.pack.data() + scratch_.first[c], scratch_.packs[c], weight_[c], front,
+                               with_head);
+      };
+      const Real left = least(at(i, m), fan_.left[m]);
+      return left + least(at(m, k), fan_.right[m]);
     } else {
-      const Real l = m - i > 1 ? behind(i, m, in_fan(m)).cost : 0;
-      return Metric::join(l, k - m > 1 ? behind(m, k, in_fan(m)).cost : 0);
+      const Real left = m - i > 1 ? behind(i, m, in_fan(m)).cost : 0;
+      return Metric::join(left, k - m > 1 ? behind(m, k, in_fan(m)).cost : 0);
     }
   }
 
@@ -255,8 +309,8 @@ class Dynamic {
     Real best = kInfinity;
     Index apex = kNone;
     for (Index m = i + 1; m < k; ++m) {
-      Real cost = fan_.area[m] + (fan_.left[m] + fan_.right[m]);
-      if constexpr (!Metric::fan_has_bends)
+      Real cost = fan_.sum[m];
+      if constexpr (!Metric::kInFan)
         cost = Metric::join(cost_[at(i, m)], cost_[at(k, m)]) < best ? Metric::triangle(fan_.area[m]) + sides(i, m, k)
                                                                      : kInfinity;
       if (cost < best) best = cost, apex = m;
@@ -274,47 +328,62 @@ class Dynamic {
     Real known = kInfinity;
     Index likely = kNone;
     for (Index m = i + 1; m < k; ++m) {
-      const Real cost = Metric::fan_has_bends ? fan_.area[m] + (fan_.left[m] + fan_.right[m])
-                                              : Metric::triangle(fan_.area[m]) + Metric::join(left[m], right[m]);
+      const Real cost = Metric::kInFan ? fan_.sum[m] : Metric::triangle(fan_.area[m]) + Metric::join(left[m], right[m]);
       if (cost < known) known = cost, likely = m;
     }
     if (likely == kNone) return close(i, k);
-    if constexpr (!Metric::fan_has_bends) known = sides(i, likely, k);
+    if constexpr (!Metric::kInFan) known = sides(i, likely, k);
     Real limit = Metric::limit(known, weight);
 
+    // Whether candidates with this cost never matter.
+    Candidate best{kInfinity, kNone};
+    const auto is_worse = [&](Real cost, Index m) {
+      if (!(cost <= limit)) return true;
+      if constexpr (Metric::kInFan)
+        return best.apex != kNone && cost > Metric::limit(best.cost, weight, in_fan(best.apex), in_fan(m));
+      return false;
+    };
     auto& list = scratch_.fresh;
     list.clear();
-    std::size_t best = 0;
     for (Index m = i + 1; m < k; ++m) {
-      const Real area = Metric::triangle(fan_.area[m]);
-      const Real least = area + Metric::join(left[m], right[m]);
-      if (!(least <= limit) || least == kInfinity) continue;
+      const Real area = Metric::triangle(fan_.area[m]), least = area + Metric::join(left[m], right[m]);
+      if (least == kInfinity || is_worse(least, m)) continue;
       const Real cost = area + sides(i, m, k);
       if (!(cost <= limit)) continue;
-      list.push_back({cost, fan_.flag[m], fan_.x[m], fan_.y[m], fan_.z[m], m});
-      if (cost < list[best].cost) best = list.size() - 1;
-      limit = std::min(limit, Metric::limit(cost, weight));
+      list.push_back({cost, m});
+      if (cost < best.cost) best = {cost, m}, limit = std::min(limit, Metric::limit(cost, weight));
     }
-    const PolygonScratch::Candidate first = list[best];
-    const Facing facing{first.flag, first.x, first.y, first.z};
-    std::erase_if(list, [&](const PolygonScratch::Candidate& c) {
-      return c.cost > Metric::limit(first.cost, weight, facing, {c.flag, c.x, c.y, c.z});
+    std::erase_if(list, [&](const Candidate& c) { return c.apex == best.apex || is_worse(c.cost, c.apex); });
+    std::sort(list.begin(), list.end(), [](const Candidate& a, const Candidate& b) {
+      return a.cost < b.cost || (a.cost == b.cost && a.apex < b.apex);
     });
-    std::sort(list.begin(), list.end(),
-              [](const auto& a, const auto& b) { return a.cost < b.cost || (a.cost == b.cost && a.apex < b.apex); });
-    // The first stands in the matrices, the others in the list.
-    scratch_.first[at(i, k)] = scratch_.candidate.size();
-    scratch_.size[at(i, k)] = static_cast<Index>(list.size() - 1);
-    scratch_.candidate.insert(scratch_.candidate.end(), list.begin() + 1, list.end());
-    set_head(i, k, first.cost, facing, first.apex, list.size() > 1 ? list[1].cost : kInfinity);
+
+    // The best one stands in the matrices, the others in packs.
+    const std::size_t c = at(i, k), packs = whole_lanes(list.size()) / kLanes;
+    scratch_.first[c] = scratch_.pack.size();
+    scratch_.packs[c] = static_cast<Index>(packs);
+    scratch_.pack.resize(scratch_.pack.size() + packs);
+    scratch_.pack_apex.resize(scratch_.pack.size() * kLanes, kNone);
+    for (std::size_t q = 0; q < list.size(); ++q) {
+      const Index m = list[q].apex;
+      const std::size_t at_pack = scratch_.first[c] + q / kLanes, lane = q % kLanes;
+      PolygonScratch::Pack& pack = scratch_.pack[at_pack];
+      pack.cost[lane] = list[q].cost, pack.flag[lane] = fan_.flag[m];
+      pack.x[lane] = fan_.x[m], pack.y[lane] = fan_.y[m], pack.z[lane] = fan_.z[m];
+      scratch_.pack_apex[at_pack * kLanes + lane] = m;
+    }
+    set_head(i, k, best.cost, in_fan(best.apex), best.apex, list.empty() ? kInfinity : list[0].cost);
   }
 
+  using Candidate = PolygonScratch::Candidate;
+
   Index n_;
+  std::size_t stride_;
   bool exact_;
   PolygonScratch& scratch_;
   const BridgedLoops* bridged_;
   Real least_area_ = 0;
-  Real *cost_, *weight_, *flag_, *nx_, *ny_, *nz_, *second_;  // second_: cost of the second candidate
+  Real *cost_, *weight_, *flag_, *nx_, *ny_, *nz_, *second_;  // second_: least cost in the packs
   Real *x_, *y_, *z_;
   Fan fan_;
 };

@@ -2,11 +2,14 @@
 // terms between neighbouring triangles Zou, Ju, Carr 2013).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
+#include "engine/base/lanes.h"
 #include "engine/base/types.h"
 
 namespace intarsia {
@@ -22,7 +25,8 @@ struct PolygonOptions {
   PolygonMetric metric = PolygonMetric::area_bend;
   Real bend_weight = 0.3;
   // false: the bend at a chord is measured against the triangle that is best for the part behind the chord on its own:
-  // several times faster, and an upper bound of the optimum. For costs that are asked for thousands of times.
+  // several times faster, and an upper bound of the optimum. For costs that are asked for thousands of times, and the
+  // only form above 256 points.
   bool exact = true;
 };
 
@@ -34,15 +38,21 @@ struct PolygonTriangulation {
 
 // Memory that calls share; one per thread.
 struct PolygonScratch {
-  // A triangle behind a chord and the least cost of what lies behind the chord with it.
+  // Triangles behind a chord, eight side by side: the least cost of what lies behind the chord with each, and its unit
+  // normal; flag 0 where there is none.
+  struct alignas(64) Pack {
+    Real cost[kLanes], flag[kLanes] = {}, x[kLanes] = {}, y[kLanes] = {}, z[kLanes] = {};
+    Pack() { std::fill(cost, cost + kLanes, std::numeric_limits<Real>::infinity()); }
+  };
   struct Candidate {
-    Real cost, flag, x, y, z;  // unit normal; flag 0 without
+    Real cost;
     Index apex;
   };
-  std::vector<Real> real;
-  std::vector<Index> apex, size, order;
+  LaneArray real;
+  std::vector<Pack> pack;
+  std::vector<Index> apex, packs, pack_apex, order;
   std::vector<std::size_t> first;
-  std::vector<Candidate> candidate, fresh;
+  std::vector<Candidate> fresh;
   std::vector<std::uint8_t> forbidden;
 };
 
@@ -59,7 +69,7 @@ struct BridgedLoops {
 // Bends count only between triangles that both have an area above 1e-14 of the squared perimeter: never NaN. A bend
 // across the edges of a bridge (two polygon edges with the same ids) is not counted.
 // Requires: finite points; id empty or one per point.
-// Ensures: ties go to the smallest apex; O(n^3) expected.
+// Ensures: ties go to the smallest apex. Time O(n^3); exact O(n^4) with a small constant: about 0.1 s for n = 200.
 PolygonTriangulation triangulate_polygon(std::span<const Vec3> point, std::span<const Index> id,
                                          const PolygonOptions& options, PolygonScratch& scratch,
                                          const BridgedLoops* bridged = nullptr);
