@@ -71,9 +71,13 @@ class Search {
       if (candidate[i] == kNone || (i > 0 && candidate[i] == candidate[i - 1])) continue;
       const Index* t = &other_.corner[3 * std::size_t{candidate[i]}];
       Real most2 = 0;
-      for (const Vec3& corner : c) {
-        const Vec3 q = closest_on_triangle(corner, other_.point[t[0]], other_.point[t[1]], other_.point[t[2]]);
-        most2 = std::max(most2, (corner - q).squaredNorm());
+      for (std::size_t k = 0; k < 3 && most2 < p.bound * p.bound; ++k) {
+        if (candidate[i] == p.nearest[k]) {
+          most2 = std::max(most2, p.distance[k] * p.distance[k]);
+          continue;
+        }
+        const Vec3 q = closest_on_triangle(c[k], other_.point[t[0]], other_.point[t[1]], other_.point[t[2]]);
+        most2 = std::max(most2, (c[k] - q).squaredNorm());
       }
       const Real bound = std::sqrt(most2);
       if (bound < p.bound) p.bound = bound, p.candidate = candidate[i];
