@@ -127,9 +127,8 @@ Network curves_to_network(const Work& work, const Surface& surface, const Curvat
   const Real lowest = options.patches > 0 ? c.weakest : c.min_saliency;
   Choice choice(work, surface, curvature, filter_by_saliency(work, curves.curves, lowest), options);
   const Real budget = options.form == SubdivideForm::quality ? c.quality_budget : c.budget;
-  const Index most = options.patches > 0
-                         ? std::max<Index>(1, static_cast<Index>(std::floor(budget * options.patches)))
-                         : c.most_patches;
+  const Index most = options.patches > 0 ? std::max<Index>(1, static_cast<Index>(std::floor(budget * options.patches)))
+                                         : c.most_patches;
   return choice.finish(choice.threshold_for(most, lowest));
 }
 

@@ -36,20 +36,23 @@ class ErrorDriven {
         s_(make_patch_surface(work, network.refined, surface.face_normal, surface.mean_edge,
                               options.subdivide.hole_length)) {}
 
-  Patches run(Index automatic_count, const PatchLabels& automatic) {
-    Patches p;
+  // What the network encloses, without its tiny patches.
+  PatchLabels network_labels(Patches& p) const {
+    PatchLabels labels = flood_patches(work_, s_.mesh, network_.refined.on_network);
+    p.network_patches = labels.count;
+    if (options_.subdivide.merge_tiny) labels = merge_patches(work_, s_, labels, options_.subdivide.merge);
+    p.merged_patches = labels.count;
+    return labels;
+  }
+
+  // From `start` to `wanted` patches with refined borders. finished: the start already has its final number.
+  void run(Patches& p, PatchLabels start, Index wanted, bool finished) {
     const SubdivideOptions& o = options_.subdivide;
-    labels_ = flood_patches(work_, s_.mesh, network_.refined.on_network);
-    p.network_patches = labels_.count;
-    if (o.merge_tiny) labels_ = merge_patches(work_, s_, labels_, o.merge);
-    p.merged_patches = labels_.count;
-    const Index wanted = options_.patches > 0 ? options_.patches : automatic_count;
-    if (options_.patches == 0 && options_.form == SubdivideForm::compact) {
-      labels_ = automatic;
-    } else {
+    labels_ = std::move(start);
+    if (!finished) {
       if (o.discs) labels_ = cut_to_discs(work_, s_, labels_, o.disc);
       const Real factor = options_.form == SubdivideForm::quality ? options_.refine.over_segment : 1;
-      seed(static_cast<Index>(std::ceil(factor * wanted)), p.warnings);
+      seed(static_cast<Index>(std::ceil(factor * wanted)));
       if (labels_.count > wanted) merge(wanted);
     }
     refine();
@@ -59,11 +62,10 @@ class ErrorDriven {
                            (reason_.empty() ? "" : ": " + reason_));
     mark_borders(work_, network_.refined, labels_, p.on_network, p.edge_kind);
     p.labels = std::move(labels_);
-    return p;
   }
 
  private:
-  void seed(Index target, std::vector<std::string>&) {
+  void seed(Index target) {
     if (labels_.count >= target) return;
     ReachOptions reach;
     reach.discs = options_.subdivide.discs;
@@ -82,8 +84,8 @@ class ErrorDriven {
   GroupOptions group_options() const {
     GroupOptions group = options_.refine.group;
     group.discs = options_.subdivide.discs;
-    group.perimeter_weight = options_.form == SubdivideForm::quality ? options_.refine.quality_perimeter
-                                                                     : options_.refine.compact_perimeter;
+    group.perimeter_weight =
+        options_.form == SubdivideForm::quality ? options_.refine.quality_perimeter : options_.refine.compact_perimeter;
     return group;
   }
   void merge(Index target) {
@@ -122,11 +124,33 @@ Patches network_to_patches(const Work& work, const Surface& surface, const Netwo
                            const LayoutOptions& options) {
   SubdivideOptions o = options.subdivide;
   o.patches = options.patches;
-  const bool by_error = options.form != SubdivideForm::faithful;
-  if (by_error && options.patches > 0) return ErrorDriven(work, surface, network, options).run(0, {});
+  if (options.form == SubdivideForm::faithful)
+    return from_subdivision(subdivide(work, network.refined, surface.face_normal, surface.mean_edge, o));
+  Patches p;
+  ErrorDriven driven(work, surface, network, options);
+  if (options.patches > 0) {
+    driven.run(p, driven.network_labels(p), options.patches, false);
+    return p;
+  }
+  // Without a number the rules of the paper decide how many.
   Subdivision s = subdivide(work, network.refined, surface.face_normal, surface.mean_edge, o);
-  if (!by_error) return from_subdivision(std::move(s));
-  return ErrorDriven(work, surface, network, options).run(s.labels.count, s.labels);
+  const Index count = s.labels.count;
+  if (options.form == SubdivideForm::quality) {
+    driven.run(p, driven.network_labels(p), count, false);
+  } else {
+    driven.run(p, std::move(s.labels), count, true);
+    p.network_patches = s.network_patches, p.merged_patches = s.merged_patches;
+  }
+  p.warnings.insert(p.warnings.end(), s.warnings.begin(), s.warnings.end());
+  return p;
+}
+
+Patches improve_patches(const Work& work, const Surface& surface, const Network& network, const PatchLabels& start,
+                        const LayoutOptions& options) {
+  Patches p;
+  p.network_patches = p.merged_patches = start.count;
+  ErrorDriven(work, surface, network, options).run(p, start, options.patches, start.count == options.patches);
+  return p;
 }
 
 }  // namespace intarsia::graph

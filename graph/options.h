@@ -34,8 +34,8 @@ enum class SubdivideForm : std::uint8_t {
 struct RefineOptions {
   Real compact_perimeter = 1e-5;  // w of sum of P^2 / (4 pi)
   Real quality_perimeter = 1e-6;
-  Real over_segment = 3;          // quality: times the wanted number
-  kernels::GroupOptions group;    // its perimeter_weight and discs are set from the above
+  Real over_segment = 3;        // quality: times the wanted number
+  kernels::GroupOptions group;  // its perimeter_weight and discs are set from the above
   kernels::CellOptions cell;
   kernels::EvenCellOptions even;
   kernels::SwapOptions swap;
@@ -43,12 +43,12 @@ struct RefineOptions {
 
 // How strong a feature must be to enter the network.
 struct ChoiceOptions {
-  Real min_saliency = 0.04;  // integral of the turn angle along a connected component, radians x diagonals
-  Real weakest = 0.01;       // lowest threshold a budget may go down to
-  Index most_patches = 60;   // automatic: a higher threshold where the network would enclose more than this
-  Real budget = 0.8;         // with a wanted number N: the network encloses at most this share of N
+  Real min_saliency = 0.04;   // integral of the turn angle along a connected component, radians x diagonals
+  Real weakest = 0.01;        // lowest threshold a budget may go down to
+  Index most_patches = 60;    // automatic: a higher threshold where the network would enclose more than this
+  Real budget = 0.8;          // with a wanted number N: the network encloses at most this share of N
   Real quality_budget = 1.5;  // the same for quality: what the network has too many is merged
-  int steps = 7;             // bisection steps on the logarithm of the threshold
+  int steps = 7;              // bisection steps on the logarithm of the threshold
 };
 
 struct LayoutOptions {

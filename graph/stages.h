@@ -26,6 +26,10 @@ Network curves_to_network(const Work& work, const Surface& surface, const Curvat
                           const LayoutOptions& options);
 Patches network_to_patches(const Work& work, const Surface& surface, const Network& network,
                            const LayoutOptions& options);
+// The same seeds, merging and border refinement from any patches, for comparisons: from `start` to options.patches.
+// With that many already only borders are refined. Requires: options.form is not faithful.
+Patches improve_patches(const Work& work, const Surface& surface, const Network& network, const PatchLabels& start,
+                        const LayoutOptions& options);
 Layout patches_to_layout(const Work& work, const Surface& surface, const Curvature& curvature, const Network& network,
                          const Patches& patches, const LayoutOptions& options);
 
