@@ -1,0 +1,117 @@
+#include "graph/evaluate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/parallel/for_each.h"
+#include "kernels/layout/patch_of_faces.h"
+
+namespace intarsia::graph {
+namespace {
+
+TrianglesView triangles_of(const MeshView& mesh) { return {{mesh.x, mesh.y, mesh.z}, mesh.corner}; }
+TrianglesView triangles_of(const kernels::Reconstruction& r) { return {r.point, r.corner}; }
+
+struct Reference {
+  TrianglesView triangles;
+  TriangleTree tree;
+  std::vector<Index> label;  // per triangle
+};
+
+Rebuilt measured(const Work& work, kernels::Reconstruction surface, const Reference& input, Index patches,
+                 const EvaluateOptions& options) {
+  Rebuilt r;
+  r.made = true;
+  r.failed = surface.failed_count();
+  if (surface.corner.empty())
+    throw Error(ErrorCode::rejected, "nothing can be rebuilt from a layout without curves: it has one patch");
+  r.surface = std::move(surface);
+  const TrianglesView rebuilt = triangles_of(r.surface);
+  const TriangleTree tree(work, rebuilt);
+  r.distance = kernels::surface_distance(work, input.triangles, input.tree, rebuilt, tree, options.distance);
+  r.patch = kernels::distance_per_label(r.distance, input.label, patches);
+  return r;
+}
+
+// The smallest value that at least `share` of them do not exceed.
+Real quantile(const std::vector<Real>& sorted, Real share) {
+  if (sorted.empty()) return 0;
+  const std::size_t rank = static_cast<std::size_t>(std::ceil(share * static_cast<Real>(sorted.size())));
+  return sorted[std::clamp<std::size_t>(rank, 1, sorted.size()) - 1];
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, const Rebuilt*>> Evaluation::made() const {
+  std::vector<std::pair<std::string, const Rebuilt*>> all = {{"triangulated", &triangulated},
+                                                             {"triangulated_area", &triangulated_area},
+                                                             {"transfinite", &transfinite},
+                                                             {"filled", &filled}};
+  std::erase_if(all, [](const auto& r) { return !r.second->made; });
+  return all;
+}
+
+Compactness compactness_of(const kernels::SampledLayout& sampled, const MeshView& mesh, std::span<const Index> label) {
+  const Index patches = sampled.patch_count();
+  Compactness c;
+  std::vector<Real> area(patches, 0), perimeter(patches, 0), length(sampled.arc.rows(), 0);
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto [i, j, k] = mesh.face(f);
+    area[label[f]] += (mesh.point(j) - mesh.point(i)).cross(mesh.point(k) - mesh.point(i)).norm() / 2;
+  }
+  for (Index a = 0; a < sampled.arc.rows(); ++a) {
+    const auto row = sampled.arc.row(a);
+    for (std::size_t i = 1; i < row.size(); ++i)
+      length[a] += (sampled.point[row[i]] - sampled.point[row[i - 1]]).norm();
+  }
+  for (Index p = 0; p < patches; ++p) {
+    for (const Index l : sampled.patch_loops.row(p))
+      for (const Index h : sampled.loop.row(l)) perimeter[p] += length[h / 2];
+    c.patch.push_back(area[p] > 0 ? perimeter[p] * perimeter[p] / (4 * std::numbers::pi * area[p]) : 0);
+  }
+  std::vector<Real> sorted = c.patch;
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t n = sorted.size();
+  c.median = n == 0 ? 0 : (sorted[(n - 1) / 2] + sorted[n / 2]) / 2;
+  c.high = quantile(sorted, 0.9);
+  c.most = n == 0 ? 0 : sorted.back();
+  return c;
+}
+
+Evaluation evaluate(const Work& work, const MeshView& mesh, const RefinedMesh& refined, std::span<const Index> label,
+                    const LayoutGraph& graph, const EvaluateOptions& options) {
+  Evaluation e;
+  e.patches = graph.patch_count();
+  const MeshView fine = refined.mesh;
+  const kernels::SampledLayout sampled = kernels::sample_layout(work, fine, graph, label, options.sample);
+  e.samples = static_cast<Index>(sampled.point.size());
+  e.compactness = compactness_of(sampled, fine, label);
+  for (Index p = 0; p < e.patches; ++p)
+    if (sampled.patch_loops.row(p).size() != 1) ++e.not_discs;
+
+  const Reference input{triangles_of(mesh), TriangleTree(work, triangles_of(mesh)),
+                        kernels::patch_of_original_faces(work, mesh, refined, label)};
+  if (options.make_triangulated)
+    e.triangulated = measured(work, kernels::reconstruct_triangulated(work, sampled, options.triangulated), input,
+                              e.patches, options);
+  if (options.make_triangulated_area) {
+    LoopsOptions plain = options.triangulated;
+    plain.polygon.metric = PolygonMetric::area;
+    e.triangulated_area =
+        measured(work, kernels::reconstruct_triangulated(work, sampled, plain), input, e.patches, options);
+  }
+  if (options.make_transfinite) {
+    kernels::TransfiniteOptions o = options.transfinite;
+    o.start = options.triangulated;
+    e.transfinite = measured(work, kernels::reconstruct_transfinite(work, sampled, o), input, e.patches, options);
+  }
+  if (options.make_filled) {
+    kernels::FillOptions o = options.filled;
+    o.start = options.triangulated;
+    e.filled = measured(work, kernels::reconstruct_filled(work, sampled, o), input, e.patches, options);
+  }
+  return e;
+}
+
+}  // namespace intarsia::graph
