@@ -78,6 +78,11 @@ std::vector<Axis> main_axes(const FaceGraph& g, const NormalRegions& regions) {
   return axes;
 }
 
+// What the energy would grow by.
+Real merge_loss(const NormalRegions& regions, Index a, Index b) {
+  return 2 * (regions.sum[a].norm() + regions.sum[b].norm() - (regions.sum[a] + regions.sum[b]).norm());
+}
+
 // Ids without gaps, in the old order.
 void close_gaps(const FaceGraph& g, NormalRegions& regions, std::vector<Index>& id_of, Index count) {
   std::vector<Index> fresh(count, kNone);
@@ -224,77 +229,78 @@ void split_best(const Work& work, const FaceGraph& g, NormalRegions& regions, In
 }
 
 void merge_cheapest(const Work& work, const FaceGraph& g, NormalRegions& regions, Index count) {
-  struct Pair {
-    Real loss;
-    Index a, b;
-  };
   const Index old = regions.count();
-  const auto loss = [&](Index a, Index b) {
-    return 2 * (regions.sum[a].norm() + regions.sum[b].norm() - (regions.sum[a] + regions.sum[b]).norm());
-  };
-  std::vector<Pair> pairs;
-  for (const auto& [a, b] : adjacent_regions(g, regions.region)) pairs.push_back({loss(a, b), a, b});
+  std::vector<Merge> pairs = merges_by_loss(g, regions);
   std::vector<Index> id_of(old);
   std::iota(id_of.begin(), id_of.end(), Index{0});
   for (Index left = old; left > count && !pairs.empty(); --left) {
     work.check();
-    const Pair best = *std::min_element(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) {
-      return std::tie(x.loss, x.a, x.b) < std::tie(y.loss, y.a, y.b);
-    });
+    const Merge best = *std::min_element(pairs.begin(), pairs.end());
     id_of[best.b] = best.a;
     regions.sum[best.a] += regions.sum[best.b];
-    for (Pair& p : pairs) {
+    for (Merge& p : pairs) {
       if (p.a != best.a && p.b != best.a && p.a != best.b && p.b != best.b) continue;
       if (p.a == best.b) p.a = best.a;
       if (p.b == best.b) p.b = best.a;
       if (p.a > p.b) std::swap(p.a, p.b);
-      if (p.a != p.b) p.loss = loss(p.a, p.b);
+      if (p.a != p.b) p.loss = merge_loss(regions, p.a, p.b);
     }
     std::sort(pairs.begin(), pairs.end(),
-              [](const Pair& x, const Pair& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
-    pairs.erase(
-        std::unique(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) { return x.a == y.a && x.b == y.b; }),
-        pairs.end());
-    std::erase_if(pairs, [](const Pair& p) { return p.a == p.b; });
+              [](const Merge& x, const Merge& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
+    pairs.erase(std::unique(pairs.begin(), pairs.end(),
+                            [](const Merge& x, const Merge& y) { return x.a == y.a && x.b == y.b; }),
+                pairs.end());
+    std::erase_if(pairs, [](const Merge& p) { return p.a == p.b; });
   }
   close_gaps(g, regions, id_of, old);
 }
 
-Index teleport(const Work& work, const FaceGraph& g, NormalRegions& regions, FaceQueue& queue) {
-  const Index count = regions.count();
-  const Halves cut = cut_in_two(work, g, regions, queue);
-  std::vector<Index> by_gain(count);
-  std::iota(by_gain.begin(), by_gain.end(), Index{0});
-  std::sort(by_gain.begin(), by_gain.end(),
-            [&](Index a, Index b) { return std::tuple(-cut.gain[a], a) < std::tuple(-cut.gain[b], b); });
-  std::vector<std::tuple<Real, Index, Index>> by_loss;
-  for (const auto& [a, b] : adjacent_regions(g, regions.region))
-    by_loss.emplace_back(2 * (regions.sum[a].norm() + regions.sum[b].norm() - (regions.sum[a] + regions.sum[b]).norm()),
-                         a, b);
-  std::sort(by_loss.begin(), by_loss.end());
+std::vector<Merge> merges_by_loss(const FaceGraph& g, const NormalRegions& regions) {
+  std::vector<Merge> merges;
+  for (const auto& [a, b] : adjacent_regions(g, regions.region)) merges.push_back({merge_loss(regions, a, b), a, b});
+  std::sort(merges.begin(), merges.end());
+  return merges;
+}
 
-  std::vector<std::uint8_t> used(count, 0);
+std::vector<Index> order_by_gain(std::span<const Real> gain) {
+  std::vector<Index> order(gain.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  std::sort(order.begin(), order.end(),
+            [&](Index a, Index b) { return std::tuple(-gain[a], a) < std::tuple(-gain[b], b); });
+  return order;
+}
+
+void move_regions(const FaceGraph& g, NormalRegions& regions, std::span<const Merge> merge, std::span<const Index> cut,
+                  std::span<const std::uint8_t> side) {
+  const Index count = regions.count();
   std::vector<Index> into(count, kNone), other(count, kNone);
-  Index moves = 0;
-  for (const auto& [loss, a, b] : by_loss) {
-    if (used[a] || used[b]) continue;
-    const auto target = std::find_if(by_gain.begin(), by_gain.end(),
-                                     [&, a_ = a, b_ = b](Index r) { return !used[r] && r != a_ && r != b_; });
-    if (target == by_gain.end() || !(cut.gain[*target] > loss * (1 + 1e-6) + 1e-12)) break;
-    used[a] = used[b] = used[*target] = 1;
-    into[b] = a, other[*target] = b;
-    ++moves;
-  }
-  if (moves == 0) return 0;
+  for (std::size_t i = 0; i < merge.size(); ++i) into[merge[i].b] = merge[i].a, other[cut[i]] = merge[i].b;
   for (Index f = 0; f < g.faces(); ++f) {
     Index& r = regions.region[f];
     if (into[r] != kNone)
       r = into[r];
-    else if (other[r] != kNone && cut.side[f])
+    else if (other[r] != kNone && side[f])
       r = other[r];
   }
   refit(g, regions, count);
-  return moves;
+}
+
+Index teleport(const Work& work, const FaceGraph& g, NormalRegions& regions, FaceQueue& queue) {
+  const Halves cut = cut_in_two(work, g, regions, queue);
+  const std::vector<Index> by_gain = order_by_gain(cut.gain);
+  std::vector<std::uint8_t> used(regions.count(), 0);
+  std::vector<Merge> merges;
+  std::vector<Index> cuts;
+  for (const Merge& m : merges_by_loss(g, regions)) {
+    if (used[m.a] || used[m.b]) continue;
+    const auto target =
+        std::find_if(by_gain.begin(), by_gain.end(), [&](Index r) { return !used[r] && r != m.a && r != m.b; });
+    if (target == by_gain.end() || !(cut.gain[*target] > m.loss * (1 + 1e-6) + 1e-12)) break;
+    used[m.a] = used[m.b] = used[*target] = 1;
+    merges.push_back(m), cuts.push_back(*target);
+  }
+  if (!merges.empty()) move_regions(g, regions, merges, cuts, cut.side);
+  return static_cast<Index>(merges.size());
 }
 
 }  // namespace intarsia::kernels

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "kernels/baselines/face_queue.h"
@@ -49,7 +50,22 @@ void split_best(const Work& work, const FaceGraph& graph, NormalRegions& regions
 // Merges the cheapest adjacent pair until `count` are left or nothing is adjacent. Ties: lower ids.
 void merge_cheapest(const Work& work, const FaceGraph& graph, NormalRegions& regions, Index count);
 
-// Merges pairs and cuts other regions instead wherever that lowers the energy (teleportation). Returns how many.
+// Adjacent pairs, the one whose union costs least first (ties: lower ids).
+struct Merge {
+  Real loss;
+  Index a, b;
+  bool operator<(const Merge& o) const { return std::tie(loss, a, b) < std::tie(o.loss, o.a, o.b); }
+};
+std::vector<Merge> merges_by_loss(const FaceGraph& graph, const NormalRegions& regions);
+// Regions in the order in which cutting them gains most.
+std::vector<Index> order_by_gain(std::span<const Real> gain);
+
+// Regions b of the merges become part of a; the other side of region cut[i] takes the id that merge[i] frees.
+// Requires: all regions named are different; connected halves.
+void move_regions(const FaceGraph& graph, NormalRegions& regions, std::span<const Merge> merge,
+                  std::span<const Index> cut, std::span<const std::uint8_t> side);
+
+// Teleportation: merges pairs and cuts other regions instead wherever that lowers the energy. Returns how many.
 Index teleport(const Work& work, const FaceGraph& graph, NormalRegions& regions, FaceQueue& queue);
 
 }  // namespace intarsia::kernels

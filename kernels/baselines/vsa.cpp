@@ -1,65 +1,114 @@
 #include "kernels/baselines/vsa.h"
 
 #include <algorithm>
-#include <array>
 
 #include "engine/parallel/for_each.h"
-#include "kernels/baselines/normal_regions.h"
+#include "kernels/baselines/exchange_regions.h"
 
 namespace intarsia::kernels {
 namespace {
 
 constexpr int kBorderSteps = 3, kBorderRings = 3;
 
-enum Start { halving, farthest, merging };
+enum Start { gradual, farthest, merging_few, merging_many, starts };
 
-class Fit {
- public:
-  Fit(const Work& work, const FaceGraph& graph, const VsaOptions& options, const PatchLabels& pieces)
-      : work_(work), graph_(graph), options_(options), pieces_(pieces) {}
+// The best regions so far, and the ways to better ones that all starts share.
+struct Search {
+  const Work& work;
+  const FaceGraph& graph;
+  const VsaOptions& options;
+  FaceQueue queue;
+  NormalRegions now, best;
+  Real best_energy = 0;
+  std::vector<Real> history;
 
-  VsaFit run(Start start) {
-    now_.region = pieces_.patch_of_face;
-    refit(graph_, now_, pieces_.count);
-    const Index wanted = std::max(options_.patches, pieces_.count);
-    if (start == halving) {
-      halve_to(wanted, 3);
-    } else if (start == merging) {
-      halve_to(options_.overshoot * wanted, 1);
-      merge_cheapest(work_, graph_, now_, wanted);
-    } else {
-      insert_farthest(wanted);
+  Search(const Work& w, const FaceGraph& g, const VsaOptions& o) : work(w), graph(g), options(o) {}
+
+  void keep_if_better() {
+    const Real energy = now.total();
+    history.push_back(energy);
+    if (best.region.empty() || energy < best_energy) best = now, best_energy = energy;
+  }
+  void steps(int full, int borders) {
+    for (int i = 0; i < full; ++i) {
+      regrow(work, graph, now, queue, options.area_in_key);
+      keep_if_better();
     }
-    iterate();
-    VsaFit fit;
-    fit.region = std::move(best_.region);
-    fit.count = static_cast<Index>(best_.area.size());
-    fit.energy = best_energy_;
-    fit.history = std::move(history_);
-    return fit;
+    if (borders > 0) now = best;
+    for (int i = 0; i < borders; ++i) {
+      regrow_borders(work, graph, now, queue, kBorderRings);
+      keep_if_better();
+    }
+  }
+  void iterate() {
+    const int round = options.teleport_every > 0 ? options.teleport_every : options.iterations;
+    for (int done = 0; done < options.iterations; done += round) {
+      const Real before = best_energy;
+      now = best;
+      if (options.teleport_every > 0 && teleport(work, graph, now, queue) > 0) keep_if_better();
+      steps(std::min(round, options.iterations - done), kBorderSteps);
+      if (!(best_energy < before * (1 - options.tolerance))) return;
+    }
+  }
+};
+
+// First regions, by each of the starts.
+class Begin {
+ public:
+  Begin(Search& search, const PatchLabels& pieces) : s_(search), pieces_(pieces) {
+    s_.now.region = pieces.patch_of_face;
+    refit(s_.graph, s_.now, pieces.count);
+  }
+
+  void run(Start start) {
+    const Index wanted = std::max(s_.options.patches, pieces_.count);
+    switch (start) {
+      case gradual:
+        return add_to(wanted);
+      case farthest:
+        return insert_farthest(wanted);
+      case merging_few:
+        return merge_from(4 * wanted, wanted);
+      default:
+        return merge_from(12 * wanted, wanted);
+    }
   }
 
  private:
-  void halve_to(Index wanted, int steps) {
-    while (now_.count() < wanted) {
-      const Index before = now_.count();
-      split_best(work_, graph_, now_, wanted, queue_);
-      if (now_.count() == before) return;
-      for (int i = 0; i < steps; ++i) regrow(work_, graph_, now_, queue_, options_.area_in_key);
+  void step(int times) {
+    for (int i = 0; i < times; ++i) regrow(s_.work, s_.graph, s_.now, s_.queue, s_.options.area_in_key);
+  }
+  bool split_to(Index wanted) {
+    const Index before = s_.now.count();
+    split_best(s_.work, s_.graph, s_.now, wanted, s_.queue);
+    return s_.now.count() > before;
+  }
+  void merge_from(Index many, Index wanted) {
+    while (s_.now.count() < many && split_to(many)) step(1);
+    merge_cheapest(s_.work, s_.graph, s_.now, wanted);
+  }
+  // A few at a time where they gain most, with teleports between.
+  void add_to(Index wanted) {
+    while (s_.now.count() < wanted &&
+           split_to(std::min(wanted, s_.now.count() + std::max(Index{1}, s_.now.count() / 12)))) {
+      step(2);
+      teleport(s_.work, s_.graph, s_.now, s_.queue);
+      step(1);
     }
   }
 
   // Seeds one after the other at the face whose normal is farthest from all seeds so far, measured by the two-ring mean
   // so that no seed is spent on a single odd face.
   void insert_farthest(Index wanted) {
-    const Index n = graph_.faces();
-    std::vector<Vec3> smooth = graph_.normal, next(n);
+    const FaceGraph& g = s_.graph;
+    const Index n = g.faces();
+    std::vector<Vec3> smooth = g.normal, next(n);
     for (int ring = 0; ring < 2; ++ring) {
       for (Index f = 0; f < n; ++f) {
-        Vec3 s = graph_.area[f] * smooth[f];
-        for (const Index o : graph_.around(f))
-          if (o != kNone) s += graph_.area[o] * smooth[o];
-        next[f] = s.isZero() ? s : s.normalized();
+        Vec3 sum = g.area[f] * smooth[f];
+        for (const Index o : g.around(f))
+          if (o != kNone) sum += g.area[o] * smooth[o];
+        next[f] = sum.isZero() ? sum : sum.normalized();
       }
       smooth.swap(next);
     }
@@ -70,66 +119,55 @@ class Fit {
       seed.push_back(f);
       seeded[pieces_.patch_of_face[f]] = 1;
       for (Index o = 0; o < n; ++o) gap[o] = std::min(gap[o], (smooth[o] - smooth[f]).squaredNorm());
-      gap[f] = -1;
+      for (const Index used : seed) gap[used] = -1;
     };
     for (Index f = 0; f < n; ++f)
       if (!seeded[pieces_.patch_of_face[f]]) insert(f);
     while (seed.size() < std::min(wanted, n)) {
-      work_.check();
+      s_.work.check();
       insert(static_cast<Index>(std::max_element(gap.begin(), gap.end()) - gap.begin()));
     }
     grow_from(
-        work_, graph_, seed, now_.region, queue_,
-        [&](Index f, Index r) { return (graph_.normal[f] - smooth[seed[r]]).squaredNorm(); },
+        s_.work, g, seed, s_.now.region, s_.queue,
+        [&](Index f, Index r) { return (g.normal[f] - smooth[seed[r]]).squaredNorm(); },
         [](Index, Index) { return true; });
-    refit(graph_, now_, static_cast<Index>(seed.size()));
+    refit(g, s_.now, static_cast<Index>(seed.size()));
   }
 
-  void keep_if_better() {
-    const Real energy = now_.total();
-    history_.push_back(energy);
-    if (best_.region.empty() || energy < best_energy_) best_ = now_, best_energy_ = energy;
-  }
-
-  void iterate() {
-    keep_if_better();
-    const int round = options_.teleport_every > 0 ? options_.teleport_every : options_.iterations;
-    for (int done = 0; done < options_.iterations; done += round) {
-      const Real before = best_energy_;
-      now_ = best_;
-      if (options_.teleport_every > 0 && teleport(work_, graph_, now_, queue_) > 0) keep_if_better();
-      for (int i = 0; i < std::min(round, options_.iterations - done); ++i) {
-        regrow(work_, graph_, now_, queue_, options_.area_in_key);
-        keep_if_better();
-      }
-      now_ = best_;
-      for (int i = 0; i < kBorderSteps; ++i) {
-        regrow_borders(work_, graph_, now_, queue_, kBorderRings);
-        keep_if_better();
-      }
-      if (!(best_energy_ < before * (1 - options_.tolerance))) return;
-    }
-  }
-
-  const Work& work_;
-  const FaceGraph& graph_;
-  const VsaOptions& options_;
+  Search& s_;
   const PatchLabels& pieces_;
-  FaceQueue queue_;
-  NormalRegions now_, best_;
-  Real best_energy_ = 0;
-  std::vector<Real> history_;
 };
+
+// Exchanges as long as they pay and the budget lasts.
+void exchange_all(const Work& work, const FaceGraph& graph, const VsaOptions& options, Search& search) {
+  constexpr std::size_t kFloods = 150;  // about what one round costs
+  for (std::size_t spent = 0; spent < options.exchange_faces; spent += kFloods * graph.faces()) {
+    search.now = search.best;
+    if (exchange_regions(work, graph, search.now, {.tolerance = options.tolerance}) == 0) return;
+    search.keep_if_better();
+    search.iterate();
+  }
+}
 
 }  // namespace
 
 VsaFit fit_planes(const Work& work, const FaceGraph& graph, const VsaOptions& options) {
   const PatchLabels pieces = connected_pieces(graph);
-  std::array<VsaFit, 3> fit;
-  for_each(work, Cost::single, fit.size(),
-           [&](std::size_t i) { fit[i] = Fit(work, graph, options, pieces).run(static_cast<Start>(i)); });
-  return std::move(
-      *std::min_element(fit.begin(), fit.end(), [](const VsaFit& a, const VsaFit& b) { return a.energy < b.energy; }));
+  std::vector<Search> search(starts, Search(work, graph, options));
+  for_each(work, Cost::single, search.size(), [&](std::size_t i) {
+    Begin(search[i], pieces).run(static_cast<Start>(i));
+    search[i].keep_if_better();
+    search[i].iterate();
+  });
+  Search& best = *std::min_element(search.begin(), search.end(),
+                                   [](const Search& a, const Search& b) { return a.best_energy < b.best_energy; });
+  exchange_all(work, graph, options, best);
+  VsaFit fit;
+  fit.count = best.best.count();
+  fit.region = std::move(best.best.region);
+  fit.energy = best.best_energy;
+  fit.history = std::move(best.history);
+  return fit;
 }
 
 }  // namespace intarsia::kernels

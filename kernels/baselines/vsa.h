@@ -10,11 +10,11 @@ namespace intarsia::kernels {
 
 struct VsaOptions {
   Index patches = 40;
-  int iterations = 50;       // Lloyd steps from each start
-  int teleport_every = 5;    // steps between attempts to teleport; 0 = never
-  Real tolerance = 1e-4;     // relative gain of a round of steps that still counts
-  Index overshoot = 4;       // one start merges so many times K regions down to K
-  bool area_in_key = false;  // growing by A |n - N|^2 (paper) instead of |n - N|^2
+  int iterations = 50;                      // Lloyd steps from each start
+  int teleport_every = 5;                   // steps between attempts to teleport; 0 = never
+  Real tolerance = 1e-4;                    // relative gain of a round of steps that still counts
+  std::size_t exchange_faces = 60'000'000;  // effort for exchanges at the end, in faces grown over
+  bool area_in_key = false;                 // growing by A |n - N|^2 (paper) instead of |n - N|^2
 };
 
 struct VsaFit {
@@ -24,8 +24,9 @@ struct VsaFit {
   std::vector<Real> history;  // of the start that won: energy after each step
 };
 
-// Best of three deterministic starts: regions halved until there are K, seeds farthest in normal, and many regions
-// merged down. Ensures: every region connected; count = min(patches, faces), but never below the number of components.
+// Best of four deterministic starts (regions halved until there are K; added a few at a time; seeds farthest in normal;
+// many regions merged down), then teleports that only pay once the regions around them have adapted. Ensures: every
+// region connected; count = min(patches, faces), but never below the number of components.
 VsaFit fit_planes(const Work& work, const FaceGraph& graph, const VsaOptions& options);
 
 }  // namespace intarsia::kernels
