@@ -152,21 +152,37 @@ void exchange_all(const Work& work, const FaceGraph& graph, const VsaOptions& op
 }  // namespace
 
 VsaFit fit_planes(const Work& work, const FaceGraph& graph, const VsaOptions& options) {
-  const PatchLabels pieces = connected_pieces(graph);
-  std::vector<Search> search(starts, Search(work, graph, options));
+  // Starts and exchanges look at balls of faces where there are many: the borders are drawn by faces at the end.
+  const Index wanted = std::max(Index{1}, options.patches);
+  const Index size = graph.faces() / std::max(options.coarse_faces, 100 * wanted);
+  const bool coarse = size > 1;
+  const BallGraph balls = coarse ? gather_balls(work, graph, size) : BallGraph{};
+  const FaceGraph& start = coarse ? balls.graph : graph;
+  const PatchLabels pieces = connected_pieces(start);
+  std::vector<Search> search(starts, Search(work, start, options));
   for_each(work, Cost::single, search.size(), [&](std::size_t i) {
     Begin(search[i], pieces).run(static_cast<Start>(i));
     search[i].keep_if_better();
     search[i].iterate();
   });
-  Search& best = *std::min_element(search.begin(), search.end(),
-                                   [](const Search& a, const Search& b) { return a.best_energy < b.best_energy; });
-  exchange_all(work, graph, options, best);
+  Search& chosen = *std::min_element(search.begin(), search.end(),
+                                     [](const Search& a, const Search& b) { return a.best_energy < b.best_energy; });
+  exchange_all(work, start, options, chosen);
   VsaFit fit;
-  fit.count = best.best.count();
-  fit.region = std::move(best.best.region);
-  fit.energy = best.best_energy;
-  fit.history = std::move(best.history);
+  const auto take = [&](Search& s) {
+    fit.count = s.best.count(), fit.energy = s.best_energy;
+    fit.region = std::move(s.best.region), fit.history = std::move(s.history);
+  };
+  if (coarse) {
+    Search fine(work, graph, options);
+    for (const Index b : balls.ball) fine.now.region.push_back(chosen.best.region[b]);
+    refit(graph, fine.now, chosen.best.count());
+    fine.keep_if_better();
+    fine.iterate();
+    take(fine);
+  } else {
+    take(chosen);
+  }
   return fit;
 }
 

@@ -13,6 +13,7 @@ struct VsaOptions {
   int iterations = 50;                      // Lloyd steps from each start
   int teleport_every = 5;                   // steps between attempts to teleport; 0 = never
   Real tolerance = 1e-4;                    // relative gain of a round of steps that still counts
+  Index coarse_faces = 40'000;              // more faces: balls of faces first, so many or 100 a patch
   std::size_t exchange_faces = 60'000'000;  // effort for exchanges at the end, in faces grown over
   bool area_in_key = false;                 // growing by A |n - N|^2 (paper) instead of |n - N|^2
 };

@@ -125,3 +125,27 @@ TEST_CASE("the labels do not depend on threads") {
     CHECK(f.energy == one.energy);
   }
 }
+
+TEST_CASE("balls of faces first: the same energies within two per cent") {
+  const Soup soup = test::jittered(test::icosphere(5), 0.001, 3);
+  const FaceGraph g = test::face_graph(soup);
+  const BallGraph balls = gather_balls(Work(), g, 8);
+  CHECK(balls.graph.faces() < g.faces() / 4);
+  CHECK(connected_pieces(g, balls.ball).count == balls.graph.faces());
+  VsaOptions options;
+  options.patches = 8;
+  const VsaFit all = fit_planes(Work(), g, options);
+  options.coarse_faces = 2000;
+  const VsaFit coarse = fit_planes(Work(), g, options);
+  CHECK(coarse.count == 8);
+  CHECK(coarse.energy < all.energy * 1.02);
+  CHECK(coarse.energy == doctest::Approx(normal_energy(g, coarse.region, 8)));
+  CHECK(test::pieces_equal_regions(g, coarse.region, 8));
+  const NormalRegions of_balls = [&] {
+    NormalRegions r;
+    r.region.assign(balls.graph.faces(), 0);
+    refit(balls.graph, r, 1);
+    return r;
+  }();
+  CHECK(of_balls.total() == doctest::Approx(normal_energy(g, std::vector<Index>(g.faces(), 0), 1)));
+}
