@@ -1,21 +1,91 @@
 #include "graph/baseline_graph.h"
 
+#include "engine/base/hash.h"
+#include "engine/parallel/for_each.h"
+#include "kernels/baselines/exoskeleton.h"
+#include "kernels/baselines/part_segmentation.h"
+#include "kernels/baselines/qse.h"
+#include "kernels/baselines/shape_diameter.h"
+#include "kernels/baselines/slippage_segments.h"
 #include "kernels/baselines/vsa.h"
 
 namespace intarsia::graph {
+namespace {
 
-std::vector<Index> baseline_labels(const Work& work, const Surface& surface, Baseline method, Index patches) {
-  const kernels::FaceGraph faces = kernels::make_face_graph(work, surface.mesh, surface.face_normal);
+using namespace kernels;
+
+PatchLabels parts_of(const Work& work, const Surface& surface, const FaceGraph& faces, Index patches,
+                     std::span<const Index> parts) {
+  if (!parts.empty()) return connected_pieces(faces, parts);
+  PartOptions options;
+  options.most = std::max(Index{1}, std::min(options.most, patches / 2));
+  return segment_parts(work, surface.mesh, faces, shape_diameter(work, surface.mesh, faces, {}), options);
+}
+
+}  // namespace
+
+const char* name_of(Baseline method) {
   switch (method) {
     case Baseline::vsa:
-      return kernels::fit_planes(work, faces, {.patches = patches}).region;
+      return "VSA";
+    case Baseline::qse:
+      return "QSE-like";
+    case Baseline::exoskeleton:
+      return "ExoSkeleton-like";
+    case Baseline::slippage:
+      return "Slippage-like";
+  }
+  return "";
+}
+
+std::vector<Index> baseline_labels(const Work& work, const Surface& surface, Baseline method, Index patches,
+                                   std::span<const Index> parts) {
+  if (!parts.empty() && parts.size() != surface.mesh.face_count())
+    throw Error(ErrorCode::bad_argument, "parts: " + std::to_string(parts.size()) + " numbers for a surface of " +
+                                             std::to_string(surface.mesh.face_count()) + " triangles");
+  const FaceGraph faces = make_face_graph(work, surface.mesh, surface.face_normal);
+  switch (method) {
+    case Baseline::vsa:
+      return fit_planes(work, faces, {.patches = patches}).region;
+    case Baseline::qse:
+      return fit_quadrics(work, surface.mesh, faces, {.patches = patches}).region;
+    case Baseline::exoskeleton:
+      return fit_parts(work, faces, parts_of(work, surface, faces, patches, parts), patches).patch_of_face;
+    case Baseline::slippage:
+      return segment_by_slippage(work, faces, {.patches = patches}).patch_of_face;
   }
   throw Error(ErrorCode::internal, "no such baseline");
 }
 
 Patches baseline_patches(const Work& work, const Surface& surface, const Network& network, Baseline method,
-                         Index patches) {
-  return patches_of_labels(work, network, surface, baseline_labels(work, surface, method, patches));
+                         Index patches, std::span<const Index> parts) {
+  return patches_of_labels(work, network, surface, baseline_labels(work, surface, method, patches, parts));
+}
+
+BaselinePorts add_baseline_stages(Flow& flow, const Port<Soup>& soup, const LayoutOptions& options, Baseline method,
+                                  PartsOfSoup parts) {
+  Hash hash;
+  hash.add(method), hash.add(options.patches);
+  BaselinePorts p;
+  p.features = add_feature_stages(flow, soup, options);
+  p.network = add_stage(flow, Stage<Network, Surface>{"network", 1, 0, empty_network, {}, 0.1}, p.features.surface);
+  const auto patches = [method, wanted = options.patches, parts = std::move(parts)](
+                           const Work& w, const Soup& input, const Surface& s, const Network& n) {
+    std::vector<Index> own;
+    if (parts) {
+      const std::vector<Index> given = parts(input);
+      for (const Index triangle : s.order.face) own.push_back(given[triangle]);
+    }
+    return baseline_patches(w, s, n, method, wanted, own);
+  };
+  p.patches = add_stage(flow, Stage<Patches, Soup, Surface, Network>{"patches", 1, hash.value(), patches, {}, 4}, soup,
+                        p.features.surface, p.network);
+  const auto layout = [options](const Work& w, const Surface& s, const Curvature& k, const Network& n,
+                                const Patches& q) { return patches_to_layout(w, s, k, n, q, options); };
+  p.layout =
+      add_stage(flow, Stage<Layout, Surface, Curvature, Network, Patches>{"layout", 1, hash.value(), layout, {}, 1},
+                p.features.surface, p.features.curvature, p.network, p.patches);
+  return p;
 }
 
 }  // namespace intarsia::graph

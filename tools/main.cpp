@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
   add_make_command(app, exit_code);
   add_distance_command(app, exit_code);
   add_seg_eval_command(app, exit_code);
+  add_baseline_command(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

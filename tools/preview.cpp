@@ -22,6 +22,15 @@ Panel panel(std::string title, std::string caption, const Shape& shape, Lines li
   return p;
 }
 
+Panel layout_panel(const graph::Layout& layout, std::span<const Rgb> colour) {
+  const RefinedMesh& refined = layout.refined;
+  Shape patched = shape_of(refined.mesh.view());
+  patched.face_label = layout.labels.patch_of_face;
+  patched.label_colour = colour;
+  return panel("layout", counted(layout.labels.count, "patch", "patches"), patched,
+               restyled(lines_of(refined.mesh, refined.on_network, refined.edge_kind), kBorderLine));
+}
+
 }  // namespace
 
 Image draw_preview(const Work& work, const PreviewInput& in, const std::optional<View>& view) {
@@ -41,12 +50,20 @@ Image draw_preview(const Work& work, const PreviewInput& in, const std::optional
   const RefinedMesh& network = in.network.refined;
   strip.add(panel("closed network", counted(in.network.patches, "region", "regions"), shape_of(network.mesh.view()),
                   lines_of(network.mesh, network.on_network, network.edge_kind)));
-  const RefinedMesh& refined = in.layout.refined;
-  Shape patched = shape_of(refined.mesh.view());
-  patched.face_label = in.layout.labels.patch_of_face;
-  patched.label_colour = in.patch_colour;
-  strip.add(panel("layout", counted(in.layout.labels.count, "patch", "patches"), patched,
-                  restyled(lines_of(refined.mesh, refined.on_network, refined.edge_kind), kBorderLine)));
+  strip.add(layout_panel(in.layout, in.patch_colour));
+  return draw_strip(work, strip);
+}
+
+Image draw_baseline_preview(const Work& work, const BaselinePreviewInput& in, const std::optional<View>& view) {
+  const MeshView mesh = in.surface.mesh;
+  Strip strip;
+  strip.options.view = view;
+  strip.add(panel("input", counted(mesh.face_count(), "triangle", "triangles"), shape_of(mesh)));
+  Shape labelled = shape_of(mesh);
+  labelled.face_label = in.patches.labels.patch_of_face;
+  labelled.label_colour = in.patch_colour;
+  strip.add(panel(in.method, counted(in.patches.labels.count, "region", "regions"), labelled));
+  strip.add(layout_panel(in.layout, in.patch_colour));
   return draw_strip(work, strip);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "engine/io/write_layout.h"
 #include "graph/artefacts.h"
@@ -22,5 +23,16 @@ struct PreviewInput {
 
 // view: where from; none = chosen from the geometry.
 Image draw_preview(const Work& work, const PreviewInput& input, const std::optional<View>& view = {});
+
+struct BaselinePreviewInput {
+  const graph::Surface& surface;
+  const graph::Patches& patches;  // per face of the surface
+  const graph::Layout& layout;
+  const std::string& method;
+  std::span<const Rgb> patch_colour;
+};
+
+// Input, the method's labels as they came, and the layout made of them.
+Image draw_baseline_preview(const Work& work, const BaselinePreviewInput& input, const std::optional<View>& view = {});
 
 }  // namespace intarsia::tools

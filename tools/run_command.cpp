@@ -1,8 +1,5 @@
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <numbers>
-#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -18,6 +15,7 @@
 #include "tools/option_flags.h"
 #include "tools/progress_bar.h"
 #include "tools/report.h"
+#include "tools/view_flag.h"
 #include "tools/write_result.h"
 
 namespace intarsia::tools {
@@ -43,16 +41,6 @@ void print_summary(const RunFlags& flags, const nlohmann::json& report, const st
   fmt::print("written to {}: patches.ply layout.ply network.ply network.json report.json preview.png\n",
              (folder / "").string());
   (void)flags;
-}
-
-std::optional<View> chosen_view(const std::vector<double>& degrees) {
-  if (degrees.empty()) return std::nullopt;
-  const double azimuth = degrees[0] * std::numbers::pi / 180, elevation = degrees[1] * std::numbers::pi / 180;
-  View view;
-  view.toward =
-      Vec3(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
-  view.up = Vec3::UnitZ();
-  return view;
 }
 
 int run(const RunFlags& flags) {
@@ -114,10 +102,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("-o,--output", flags->output, "folder for the results; exchanged as a whole")->required();
   command->add_option("-n,--patches", flags->patches, "wanted number of patches; 0 = automatic")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--view", flags->view, "azimuth and elevation of the preview, degrees, z up; default: chosen")
-      ->expected(2)
-      ->delimiter(',')
-      ->check(CLI::Range(-360.0, 360.0));
+  add_view_flag(*command, flags->view);
   add_common_flags(*command, flags->common);
   flags->method.add_to(*command);
   command->callback([flags, &exit_code] { exit_code = run(*flags); });

@@ -5,16 +5,15 @@
 #include "tools/preview.h"
 
 namespace intarsia::tools {
+namespace {
 
-std::vector<std::string> result_names() {
-  return {"patches.ply", "layout.ply", "network.ply", "network.json", "report.json", "preview.png"};
+std::vector<Rgb> colours_of(const Work& work, const graph::Layout& layout) {
+  return patch_colours(work,
+                       adjacent_patches(work, layout.refined.mesh, layout.labels.patch_of_face, layout.labels.count));
 }
 
-Written write_result(const Work& work, const OutputFolder& folder, const Soup& soup, const graph::Surface& surface,
-                     const graph::Ridges& ridges, const graph::Ridges& valleys, const graph::Sharp& sharp,
-                     const graph::Network& network, const graph::Layout& layout, const std::optional<View>& view) {
-  const std::vector<Rgb> colour = patch_colours(
-      work, adjacent_patches(work, layout.refined.mesh, layout.labels.patch_of_face, layout.labels.count));
+void write_layout_files(const Work& work, const OutputFolder& folder, const Soup& soup, const graph::Surface& surface,
+                        const graph::Layout& layout, const std::vector<Rgb>& colour) {
   std::vector<std::array<std::uint8_t, 3>> rgb;
   for (const Rgb& c : colour) rgb.push_back({c.r, c.g, c.b});
   LayoutView parts;
@@ -29,8 +28,9 @@ Written write_result(const Work& work, const OutputFolder& folder, const Soup& s
   write_layout_ply(work, folder.file("layout.ply"), parts);
   write_network_ply(work, folder.file("network.ply"), parts);
   write_network_json(work, folder.file("network.json"), parts);
-  write_png(folder.file("preview.png"),
-            draw_preview(work, {surface, ridges, valleys, sharp, network, layout, colour}, view));
+}
+
+Written count_files(const OutputFolder& folder) {
   Written written;
   for (const std::string& name : result_names()) {
     std::error_code error;
@@ -38,6 +38,31 @@ Written write_result(const Work& work, const OutputFolder& folder, const Soup& s
     if (!error) ++written.files, written.bytes += size;
   }
   return written;
+}
+
+}  // namespace
+
+std::vector<std::string> result_names() {
+  return {"patches.ply", "layout.ply", "network.ply", "network.json", "report.json", "preview.png"};
+}
+
+Written write_result(const Work& work, const OutputFolder& folder, const Soup& soup, const graph::Surface& surface,
+                     const graph::Ridges& ridges, const graph::Ridges& valleys, const graph::Sharp& sharp,
+                     const graph::Network& network, const graph::Layout& layout, const std::optional<View>& view) {
+  const std::vector<Rgb> colour = colours_of(work, layout);
+  write_layout_files(work, folder, soup, surface, layout, colour);
+  write_png(folder.file("preview.png"),
+            draw_preview(work, {surface, ridges, valleys, sharp, network, layout, colour}, view));
+  return count_files(folder);
+}
+
+Written write_baseline(const Work& work, const OutputFolder& folder, const Soup& soup, const graph::Surface& surface,
+                       const graph::Patches& patches, const graph::Layout& layout, const std::string& method,
+                       const std::optional<View>& view) {
+  const std::vector<Rgb> colour = colours_of(work, layout);
+  write_layout_files(work, folder, soup, surface, layout, colour);
+  write_png(folder.file("preview.png"), draw_baseline_preview(work, {surface, patches, layout, method, colour}, view));
+  return count_files(folder);
 }
 
 }  // namespace intarsia::tools

@@ -24,4 +24,9 @@ Written write_result(const Work& work, const OutputFolder& folder, const Soup& s
                      const graph::Ridges& ridges, const graph::Ridges& valleys, const graph::Sharp& sharp,
                      const graph::Network& network, const graph::Layout& layout, const std::optional<View>& view);
 
+// The same files of a method without curves. method: its name, over the picture of its labels.
+Written write_baseline(const Work& work, const OutputFolder& folder, const Soup& soup, const graph::Surface& surface,
+                       const graph::Patches& patches, const graph::Layout& layout, const std::string& method,
+                       const std::optional<View>& view);
+
 }  // namespace intarsia::tools

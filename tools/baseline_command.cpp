@@ -1,0 +1,136 @@
+#include <filesystem>
+#include <map>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+#include "engine/io/read_labels.h"
+#include "engine/io/read_mesh.h"
+#include "engine/io/write_file.h"
+#include "engine/run/trace.h"
+#include "graph/baseline_graph.h"
+#include "tools/commands.h"
+#include "tools/exit_code.h"
+#include "tools/interrupt.h"
+#include "tools/option_flags.h"
+#include "tools/progress_bar.h"
+#include "tools/report.h"
+#include "tools/view_flag.h"
+#include "tools/write_result.h"
+
+namespace intarsia::tools {
+namespace {
+
+const std::map<std::string, graph::Baseline> kMethods = {{"vsa", graph::Baseline::vsa},
+                                                         {"qse", graph::Baseline::qse},
+                                                         {"exoskeleton", graph::Baseline::exoskeleton},
+                                                         {"slippage", graph::Baseline::slippage}};
+
+struct BaselineFlags {
+  std::string method, input, output, parts, property = "patch";
+  Index patches = 40;
+  std::vector<double> view;
+  CommonFlags common;
+  OptionFlags stages;
+};
+
+graph::PartsOfSoup parts_reader(const BaselineFlags& flags) {
+  if (flags.parts.empty()) return {};
+  if (kMethods.at(flags.method) != graph::Baseline::exoskeleton)
+    throw Error(ErrorCode::bad_argument, "--parts is for the method exoskeleton");
+  return [path = flags.parts, property = flags.property](const Soup& soup) {
+    const std::vector<int> of_face = read_face_labels(Work(), path, property);
+    std::vector<Index> parts;
+    number_labels(labels_of_triangles(path, of_face, soup.source_face, soup.face_count()), parts);
+    return parts;
+  };
+}
+
+int baseline(const BaselineFlags& flags) {
+  graph::LayoutOptions options = flags.stages.options(flags.common);
+  options.patches = flags.patches;
+  const graph::Baseline method = kMethods.at(flags.method);
+  RunSettings settings;
+  settings.threads = flags.common.threads, settings.seed = flags.common.seed;
+  settings.order = flags.common.order == "relaxed" ? Order::relaxed : Order::fixed;
+  RunContext context(settings, &interrupt_flag());
+  ProgressBar bar(flags.common.quiet ? ProgressBar::Style::none : ProgressBar::style_for_terminal());
+  context.add_listener(bar);
+  OutputFolder folder(flags.output, result_names());
+
+  Flow flow(context, std::filesystem::path(flags.input).filename().string());
+  const auto read = [path = std::filesystem::path(flags.input)](const Work& work) { return read_mesh(work, path); };
+  const Port<Soup> soup = add_stage(flow, Stage<Soup>{"read", 1, 0, read, {}, 0.3});
+  const graph::BaselinePorts ports = graph::add_baseline_stages(flow, soup, options, method, parts_reader(flags));
+  nlohmann::json summary;
+  const auto write = [&](const Work& work, const Soup& s, const graph::Surface& surface, const graph::Network& network,
+                         const graph::Patches& patches, const graph::Layout& layout) {
+    add_layout_report(summary, s, surface, network, layout, options.patches);
+    return write_baseline(work, folder, s, surface, patches, layout, graph::name_of(method), chosen_view(flags.view));
+  };
+  using WriteStage = Stage<Written, Soup, graph::Surface, graph::Network, graph::Patches, graph::Layout>;
+  add_stage(flow, WriteStage{"write", 1, 0, write, {}, 1.5}, soup, ports.features.surface, ports.network, ports.patches,
+            ports.layout);
+
+  const auto report_now = [&] {
+    nlohmann::json report =
+        base_report("baseline", flags.input, flags.common, context, flow.record(), flags.stages.to_json(options));
+    report["method"] = graph::name_of(method);
+    report["options"]["patches"] = {{"value", options.patches}, {"given", true}};
+    if (!flags.parts.empty()) report["parts"] = flags.parts;
+    report.merge_patch(summary);
+    return report;
+  };
+  try {
+    flow.run();
+  } catch (const Error&) {
+    if (!flags.common.report.empty()) write_file_atomically(flags.common.report, report_now().dump(1) + "\n");
+    throw;
+  }
+  const nlohmann::json report = report_now();
+  const std::string text = report.dump(1) + "\n";
+  write_file_atomically(folder.file("report.json"), text);
+  folder.commit();
+  if (!flags.common.report.empty()) write_file_atomically(flags.common.report, text);
+  if (!flags.common.trace.empty())
+    write_file_atomically(flags.common.trace, chrome_trace({{"intarsia", &flow.record()}}).dump(1) + "\n");
+  if (!flags.common.quiet) {
+    fmt::print("{}: {} patches, {} of them no discs, in {:.2f} s ({} threads)\n", graph::name_of(method),
+               report["counts"]["patches"].get<int>(), report["counts"]["not_discs"].get<int>(),
+               report["seconds"].get<double>(), report["threads"].get<int>());
+    for (const auto& w : report["warnings"]) spdlog::warn("{}", w["message"].get<std::string>());
+    fmt::print("written to {}: patches.ply layout.ply network.ply network.json report.json preview.png\n",
+               (folder.target() / "").string());
+  }
+  return report["valid"].get<bool>() ? kExitDone : kExitDegraded;
+}
+
+}  // namespace
+
+void add_baseline_command(CLI::App& app, int& exit_code) {
+  auto flags = std::make_shared<BaselineFlags>();
+  CLI::App* command = app.add_subcommand("baseline", "layout by one of the methods that ours is compared with");
+  std::vector<std::string> methods;
+  for (const auto& [name, method] : kMethods) methods.push_back(name);
+  command
+      ->add_option(
+          "method", flags->method,
+          "vsa: planes (Cohen-Steiner et al. 2004); qse: quadrics (after Yan et al. 2006); exoskeleton: parts, "
+          "then planes (after de Goes et al. 2011); slippage (after Gelfand, Guibas 2004)")
+      ->required()
+      ->check(CLI::IsMember(methods));
+  command->add_option("input", flags->input, "mesh: .ply .obj .stl .off")->required();
+  command->add_option("-o,--output", flags->output, "folder for the results; exchanged as a whole")->required();
+  command->add_option("-n,--patches", flags->patches, "number of patches")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--parts", flags->parts, "exoskeleton: parts of the body, .seg (one label a line) or .ply");
+  command->add_option("--property", flags->property, "face property of a .ply with parts")->capture_default_str();
+  add_view_flag(*command, flags->view);
+  add_common_flags(*command, flags->common);
+  flags->stages.add_to(*command);
+  command->callback([flags, &exit_code] { exit_code = baseline(*flags); });
+}
+
+}  // namespace intarsia::tools
