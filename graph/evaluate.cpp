@@ -92,25 +92,21 @@ Evaluation evaluate(const Work& work, const MeshView& mesh, const RefinedMesh& r
 
   const Reference input{triangles_of(mesh), TriangleTree(work, triangles_of(mesh)),
                         kernels::patch_of_original_faces(work, mesh, refined, label)};
-  if (options.make_triangulated)
-    e.triangulated = measured(work, kernels::reconstruct_triangulated(work, sampled, options.triangulated), input,
-                              e.patches, options);
+  const auto measure = [&](kernels::Reconstruction surface) {
+    return measured(work, std::move(surface), input, e.patches, options);
+  };
   if (options.make_triangulated_area) {
     LoopsOptions plain = options.triangulated;
     plain.polygon.metric = PolygonMetric::area;
     e.triangulated_area =
-        measured(work, kernels::reconstruct_triangulated(work, sampled, plain), input, e.patches, options);
+        measure(kernels::reconstruct_triangulated(work, sampled, kernels::triangulate_patches(work, sampled, plain)));
   }
-  if (options.make_transfinite) {
-    kernels::TransfiniteOptions o = options.transfinite;
-    o.start = options.triangulated;
-    e.transfinite = measured(work, kernels::reconstruct_transfinite(work, sampled, o), input, e.patches, options);
-  }
-  if (options.make_filled) {
-    kernels::FillOptions o = options.filled;
-    o.start = options.triangulated;
-    e.filled = measured(work, kernels::reconstruct_filled(work, sampled, o), input, e.patches, options);
-  }
+  if (!options.make_triangulated && !options.make_transfinite && !options.make_filled) return e;
+  const kernels::PatchTriangulations start = kernels::triangulate_patches(work, sampled, options.triangulated);
+  if (options.make_triangulated) e.triangulated = measure(kernels::reconstruct_triangulated(work, sampled, start));
+  if (options.make_transfinite)
+    e.transfinite = measure(kernels::reconstruct_transfinite(work, sampled, start, options.transfinite));
+  if (options.make_filled) e.filled = measure(kernels::reconstruct_filled(work, sampled, start, options.filled));
   return e;
 }
 

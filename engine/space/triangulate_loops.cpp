@@ -1,10 +1,14 @@
 #include "engine/space/triangulate_loops.h"
 
 #include <algorithm>
+#include <array>
 #include <tuple>
+#include <utility>
 
 namespace intarsia {
 namespace {
+
+constexpr int kRounds = 8;  // of forbidding doubled chords
 
 struct Bridge {
   Real length2 = 0;
@@ -166,9 +170,34 @@ class Bridging {
       loop_.push_back(static_cast<Index>(std::upper_bound(loops_.offset.begin(), loops_.offset.end(), p) -
                                          loops_.offset.begin() - 1));
     }
-    const BridgedLoops bridged{loop_, middle_};
-    PolygonTriangulation t = triangulate_polygon(point_, id_, polygon_options, scratch_, &bridged);
+    no_chord_.clear();
+    PolygonTriangulation t;
+    for (int round = 0; round < kRounds; ++round) {
+      const BridgedLoops bridged{loop_, middle_, no_chord_};
+      t = triangulate_polygon(point_, id_, polygon_options, scratch_, &bridged);
+      if (!t.ok || !forbid_doubled(t)) break;
+    }
     return t.ok ? t : triangulate_polygon(point_, id_, polygon_options, scratch_);
+  }
+
+  // Two chords between copies of the same two points are one edge with four triangles: the one that cuts off more of
+  // the polygon is forbidden. False if there are none.
+  bool forbid_doubled(const PolygonTriangulation& t) {
+    edge_.clear();
+    const Index n = static_cast<Index>(id_.size());
+    for (const auto& [i, m, k] : t.triangle)
+      for (const auto& [a, b] : {std::pair(i, m), std::pair(m, k), std::pair(i, k)})
+        edge_.push_back({std::min(id_[a], id_[b]), std::max(id_[a], id_[b]), std::min(b - a, n - (b - a)), a, b});
+    std::sort(edge_.begin(), edge_.end());
+    edge_.erase(std::unique(edge_.begin(), edge_.end()), edge_.end());
+    bool any = false;
+    for (std::size_t e = 1; e < edge_.size(); ++e) {
+      const auto &last = edge_[e - 1], &edge = edge_[e];
+      if (last[0] != edge[0] || last[1] != edge[1] || edge[2] == 1) continue;  // bridges are polygon edges twice
+      no_chord_.push_back({edge[3], edge[4]});
+      any = true;
+    }
+    return any;
   }
 
   const Loops& loops_;
@@ -177,6 +206,8 @@ class Bridging {
   Index base_;
   std::vector<Index> loop_of_, polygon_, id_, loop_;  // loop_of_: per bridge; loop_: per point
   std::vector<Bridge> bridge_;
+  std::vector<std::array<Index, 5>> edge_;  // ids, what it cuts off, positions
+  std::vector<std::array<Index, 2>> no_chord_;
   std::vector<Vec3> point_, middle_;  // middle_: per loop
 };
 

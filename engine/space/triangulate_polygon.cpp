@@ -436,6 +436,11 @@ PolygonTriangulation triangulate_polygon(std::span<const Vec3> point, std::span<
                                          const BridgedLoops* bridged) {
   if (point.size() < 3) return {};
   forbid(id, scratch.forbidden, scratch.order);
+  if (bridged && !bridged->no_chord.empty()) {
+    const std::size_t n = point.size();
+    scratch.forbidden.resize(n * n, 0);
+    for (const auto& [i, k] : bridged->no_chord) scratch.forbidden[i * n + k] = scratch.forbidden[k * n + i] = 1;
+  }
   switch (options.metric) {
     case PolygonMetric::area: {
       PolygonOptions plain = options;

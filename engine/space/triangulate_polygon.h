@@ -60,8 +60,9 @@ struct PolygonScratch {
 // triangles with all corners on one loop are not allowed where they face another loop's middle (within 45 degrees,
 // either way): flat arms of a disc with holes stay free, lids of a tube do not.
 struct BridgedLoops {
-  std::span<const Index> loop;   // per point
-  std::span<const Vec3> middle;  // per loop
+  std::span<const Index> loop;                     // per point
+  std::span<const Vec3> middle;                    // per loop
+  std::span<const std::array<Index, 2>> no_chord;  // positions, ascending in each: further chords that are not allowed
 };
 
 // id: the same number marks copies of one point (the two sides of a bridge); empty: all differ. No chord joins two

@@ -1,21 +1,13 @@
 #include "kernels/quality/patch_border.h"
 
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
 #include "engine/parallel/for_each.h"
 #include "engine/parallel/scan.h"
-#include "engine/parallel/scratch_pool.h"
+#include "engine/space/point_triangle.h"
 
 namespace intarsia::kernels {
-
-Real PatchBorder::length() const {
-  Real sum = 0;
-  for (Index l = 0; l < loops(); ++l)
-    for (Index i = offset[l]; i < offset[l + 1]; ++i)
-      sum += (point[i + 1 == offset[l + 1] ? offset[l] : i + 1] - point[i]).norm();
-  return sum;
-}
 
 PatchBorder border_of(const SampledLayout& layout, Index patch) {
   PatchBorder border;
@@ -37,13 +29,16 @@ PatchBorder border_of(const SampledLayout& layout, Index patch) {
   return border;
 }
 
-PatchMesh triangulate_border(const PatchBorder& border, const LoopsOptions& options, PolygonScratch& scratch) {
-  PatchMesh mesh;
-  LoopsTriangulation t = triangulate_loops(border.point, border.offset, border.id, options, scratch);
-  mesh.triangle = std::move(t.triangle);
-  mesh.bridged = border.loops() > 1;
-  mesh.failed = !t.ok;
-  return mesh;
+void for_each_patch(const Work& work, const SampledLayout& layout,
+                    const std::function<void(Index patch, PatchBorder&& border)>& body) {
+  const Index patches = layout.patch_count();
+  std::vector<PatchBorder> border(patches);
+  for_each(work, Cost::heavy, patches, [&](std::size_t p) { border[p] = border_of(layout, static_cast<Index>(p)); });
+  std::vector<Index> order(patches);
+  for (Index p = 0; p < patches; ++p) order[p] = p;
+  std::sort(order.begin(), order.end(),
+            [&](Index a, Index b) { return std::pair(border[b].size(), a) < std::pair(border[a].size(), b); });
+  for_each(work, Cost::single, patches, [&](std::size_t i) { body(order[i], std::move(border[order[i]])); });
 }
 
 Index Reconstruction::bridged_count() const {
@@ -53,23 +48,30 @@ Index Reconstruction::failed_count() const {
   return static_cast<Index>(std::count(failed.begin(), failed.end(), std::uint8_t{1}));
 }
 
+bool stays_near(std::span<const Vec3> shape, std::span<const Vec3> start, const PatchBorder& border,
+                const Triangles& triangle, Real share) {
+  Vec3 low = border.point[0], high = border.point[0];
+  for (const Vec3& p : border.point) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const Real reach = share * (high - low).norm();
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    if ((shape[i] - start[i]).norm() <= reach) continue;
+    const bool near = std::any_of(triangle.begin(), triangle.end(), [&](const auto& t) {
+      const Vec3 foot = closest_on_triangle(shape[i], border.point[t[0]], border.point[t[1]], border.point[t[2]]);
+      return (foot - shape[i]).norm() <= reach;
+    });
+    if (!near) return false;
+  }
+  return true;
+}
+
 Reconstruction rebuild(const Work& work, const SampledLayout& layout, const MakePatch& make) {
   const Index patches = layout.patch_count();
   std::vector<PatchBorder> border(patches);
   std::vector<PatchMesh> mesh(patches);
-  for_each(work, Cost::heavy, patches, [&](std::size_t p) { border[p] = border_of(layout, static_cast<Index>(p)); });
-  std::vector<Index> order(patches);
-  std::iota(order.begin(), order.end(), Index{0});
-  std::sort(order.begin(), order.end(),
-            [&](Index a, Index b) { return std::pair(border[b].size(), a) < std::pair(border[a].size(), b); });
-  auto pool = make_scratch_pool([] { return PolygonScratch(); });
-  for_each(work, Cost::single, patches, [&](std::size_t i) {
-    const Index p = order[i];
-    const auto scratch = pool.borrow();
-    if (border[p].loops() > 0)
-      mesh[p] = make(p, border[p], *scratch);
-    else
-      mesh[p].failed = true;
+  for_each_patch(work, layout, [&](Index p, PatchBorder&& b) {
+    if (b.loops() > 0) mesh[p] = make(p, b);
+    mesh[p].failed = mesh[p].failed || mesh[p].triangle.empty();
+    border[p] = std::move(b);
   });
 
   Reconstruction out;
@@ -78,7 +80,7 @@ Reconstruction rebuild(const Work& work, const SampledLayout& layout, const Make
   for (Index p = 0; p < patches; ++p) {
     first_inner[p] = static_cast<Index>(mesh[p].inner.size());
     first_triangle[p] = static_cast<Index>(mesh[p].triangle.size());
-    out.bridged.push_back(mesh[p].bridged ? 1 : 0);
+    out.bridged.push_back(border[p].loops() > 1 ? 1 : 0);
     out.failed.push_back(mesh[p].failed ? 1 : 0);
   }
   const Index samples = static_cast<Index>(layout.point.size());

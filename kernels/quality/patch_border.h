@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "kernels/quality/reconstruct.h"
@@ -18,24 +19,32 @@ struct PatchBorder {
 
   Index size() const { return static_cast<Index>(id.size()); }
   Index loops() const { return static_cast<Index>(offset.size() - 1); }
-  Real length() const;
 };
 
 PatchBorder border_of(const SampledLayout& layout, Index patch);
 
+using Triangles = std::vector<std::array<Index, 3>>;
+
 // Corners below the size of the border are positions in it, those above inner points.
 struct PatchMesh {
   std::vector<Vec3> inner;
-  std::vector<std::array<Index, 3>> triangle;
-  bool bridged = false, failed = false;
+  Triangles triangle;
+  bool failed = false;
 };
 
-// The optimal triangulation of a border; failed and empty if there is none.
-PatchMesh triangulate_border(const PatchBorder& border, const LoopsOptions& options, PolygonScratch& scratch);
+// body(patch, its border) for every patch, side by side, the longest borders first.
+void for_each_patch(const Work& work, const SampledLayout& layout,
+                    const std::function<void(Index patch, PatchBorder&& border)>& body);
 
-using MakePatch = std::function<PatchMesh(Index patch, const PatchBorder& border, PolygonScratch& scratch)>;
+using MakePatch = std::function<PatchMesh(Index patch, const PatchBorder& border)>;
 
-// Calls `make` for every patch that has loops, side by side, the longest borders first.
+// Calls `make` for every patch that has loops, side by side, the longest borders first. Patches without triangles have
+// failed.
 Reconstruction rebuild(const Work& work, const SampledLayout& layout, const MakePatch& make);
+
+// Whether every point is within `share` of the border's diagonal of its triangulation. start: points of the
+// triangulation, one for each, that are likely near.
+bool stays_near(std::span<const Vec3> shape, std::span<const Vec3> start, const PatchBorder& border,
+                const Triangles& triangle, Real share);
 
 }  // namespace intarsia::kernels

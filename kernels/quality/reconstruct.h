@@ -3,6 +3,7 @@
 // normals along the arcs.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "engine/space/triangulate_loops.h"
@@ -22,32 +23,43 @@ struct Reconstruction {
   Index failed_count() const;
 };
 
-// Optimal triangulations of the loops of every patch (Zou, Ju, Carr 2013).
-Reconstruction reconstruct_triangulated(const Work& work, const SampledLayout& layout, const LoopsOptions& options);
+// Optimal triangulations of the loops of every patch (Zou, Ju, Carr 2013). Corners are positions in the concatenated
+// loops of the patch; none where there is no loop or no triangulation.
+struct PatchTriangulations {
+  std::vector<std::vector<std::array<Index, 3>>> triangle;  // per patch
+};
+PatchTriangulations triangulate_patches(const Work& work, const SampledLayout& layout, const LoopsOptions& options);
+
+// That triangulation as a surface.
+Reconstruction reconstruct_triangulated(const Work& work, const SampledLayout& layout,
+                                        const PatchTriangulations& triangulated);
 
 struct TransfiniteOptions {
   Index most_sides = 8;    // patches with more: the corners that turn least are no corners any more
-  Real long_side = 3;      // medians: sides longer than this are cut at their middle
-  Real step = 2;           // sample steps between the inner points
+  Real straight = 45;      // degrees: nodes where the border turns less are no corners, if three others remain
+  Real long_side = 0;      // medians: sides longer than this are cut at their middle; 0: none
+  Real guard = 0.15;       // patch diagonals it may move away from the triangulation; else it falls back to that
+  Real step = 1;           // sample steps between the inner points
   Index most_inner = 800;  // inner points per patch, about
-  LoopsOptions start;      // for patches that are no discs, which are triangulated
 };
 
-// C0 transfinite n-sided patches from the curves alone (Salvi 2020; n = 4: Coons 1967).
+// C0 transfinite n-sided patches from the curves alone (Salvi 2020; n = 4: Coons 1967). Patches that are no discs stay
+// as they are triangulated.
 Reconstruction reconstruct_transfinite(const Work& work, const SampledLayout& layout,
-                                       const TransfiniteOptions& options);
+                                       const PatchTriangulations& triangulated, const TransfiniteOptions& options);
 
 struct FillOptions {
-  LoopsOptions start;      // the triangulation to start from
-  int rounds = 3;          // solves: the first with uniform weights, the others with those of the last shape
-  Real guard = 0.25;       // patch diagonals a fill may move away from its triangulation
-  Real step = 2;           // sample steps between the inner points
+  int flat_rounds = 1;     // see PlateOptions
+  int bent_rounds = 1;
+  Real guard = 0.25;       // patch diagonals a fill may move away from its triangulation; else it falls back to it
+  Real step = 1;           // sample steps between the inner points
   Index most_inner = 800;  // inner points per patch, about
   bool use_normals = true;
 };
 
 // Thin-plate fill with the input's normals along the arcs: the triangulation is refined (Liepa 2003), then the squared
-// cotangent Laplacian is minimised, with a row of fixed points beyond the border that carries the tangents.
-Reconstruction reconstruct_filled(const Work& work, const SampledLayout& layout, const FillOptions& options);
+// Laplacian, less the curvature of the border, is minimised; points beyond the border carry the tangents.
+Reconstruction reconstruct_filled(const Work& work, const SampledLayout& layout,
+                                  const PatchTriangulations& triangulated, const FillOptions& options);
 
 }  // namespace intarsia::kernels

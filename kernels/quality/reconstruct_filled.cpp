@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <cmath>
-
-#include "engine/space/point_triangle.h"
 #include "kernels/quality/patch_border.h"
 #include "kernels/quality/refine_patch.h"
 #include "kernels/quality/thin_plate.h"
@@ -17,10 +13,10 @@ std::vector<Index> next_positions(const PatchBorder& border) {
   return next;
 }
 
-// Opposite to the surface, one border step from every inner point of an arc: at corners it has no one tangent plane.
+// At every inner point of an arc; at corners the surface has no one tangent plane.
 GhostRow ghosts(const SampledLayout& layout, const PatchBorder& border, std::span<const Index> next) {
   GhostRow ghost;
-  ghost.point.assign(border.size(), Vec3::Zero());
+  ghost.outward.assign(border.size(), Vec3::Zero());
   ghost.has.assign(border.size(), 0);
   std::vector<Index> last(border.size());
   for (Index i = 0; i < border.size(); ++i) last[next[i]] = i;
@@ -32,65 +28,43 @@ GhostRow ghosts(const SampledLayout& layout, const PatchBorder& border, std::spa
       const Real length = inward.norm();
       const Real step = ((after - border.point[i]).norm() + (border.point[i] - before).norm()) / 2;
       if (!(length > 1e-9 * step)) continue;
-      ghost.point[i] = border.point[i] - (step / length) * inward;
+      ghost.outward[i] = -(step / length) * inward;
       ghost.has[i] = 1;
     }
   return ghost;
 }
 
-// Whether every point is within `reach` of the triangulation of the border.
-bool stays_near(const std::vector<Vec3>& shape, std::span<const Vec3> start, const PatchBorder& border,
-                const std::vector<std::array<Index, 3>>& triangle, Real reach) {
-  for (std::size_t i = 0; i < shape.size(); ++i) {
-    if ((shape[i] - start[i]).norm() <= reach) continue;
-    const bool near = std::any_of(triangle.begin(), triangle.end(), [&](const auto& t) {
-      return (closest_on_triangle(shape[i], border.point[t[0]], border.point[t[1]], border.point[t[2]]) - shape[i])
-                 .norm() <= reach;
-    });
-    if (!near) return false;
-  }
-  return true;
-}
-
-Real diagonal_of(const std::vector<Vec3>& point) {
-  Vec3 low = point[0], high = point[0];
-  for (const Vec3& p : point) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  return (high - low).norm();
-}
-
-PatchMesh fill(const SampledLayout& layout, const PatchBorder& border, const FillOptions& options,
-               PolygonScratch& scratch) {
-  PatchMesh mesh = triangulate_border(border, options.start, scratch);
-  if (mesh.failed) return mesh;
-  const std::vector<std::array<Index, 3>> flat = mesh.triangle;
+PatchMesh fill(const SampledLayout& layout, const PatchBorder& border, const Triangles& flat,
+               const FillOptions& options) {
+  PatchMesh mesh{{}, flat};
   std::vector<Vec3> point = border.point;
   refine_patch(point, mesh.triangle, {options.step, options.most_inner});
+  const std::span<const Vec3> start(point.data() + border.size(), point.size() - border.size());
   const std::vector<Index> next = next_positions(border);
   GhostRow ghost;
   if (options.use_normals) {
     ghost = ghosts(layout, border, next);
   } else {
-    ghost.point.resize(border.size()), ghost.has.assign(border.size(), 0);
+    ghost.outward.assign(border.size(), Vec3::Zero()), ghost.has.assign(border.size(), 0);
   }
-  const auto shapes = solve_thin_plate(point, border.size(), mesh.triangle, next, ghost, {options.rounds});
-  const std::span<const Vec3> start(point.data() + border.size(), point.size() - border.size());
-  const Real reach = options.guard * diagonal_of(border.point);
+  const auto shapes =
+      solve_thin_plate(point, border.size(), mesh.triangle, next, ghost, {options.flat_rounds, options.bent_rounds});
   for (auto shape = shapes.rbegin(); shape != shapes.rend(); ++shape) {
-    if (!stays_near(*shape, start, border, flat, reach)) continue;
+    if (!stays_near(*shape, start, border, flat, options.guard)) continue;
     mesh.inner = *shape;
     return mesh;
   }
   // Without inner points there is nothing to bend; otherwise every solve went astray.
-  mesh.failed = !start.empty();
-  mesh.triangle = flat;
-  return mesh;
+  return {{}, flat, !start.empty()};
 }
 
 }  // namespace
 
-Reconstruction reconstruct_filled(const Work& work, const SampledLayout& layout, const FillOptions& options) {
-  return rebuild(work, layout, [&](Index, const PatchBorder& border, PolygonScratch& scratch) {
-    return fill(layout, border, options, scratch);
+Reconstruction reconstruct_filled(const Work& work, const SampledLayout& layout,
+                                  const PatchTriangulations& triangulated, const FillOptions& options) {
+  return rebuild(work, layout, [&](Index p, const PatchBorder& border) {
+    if (triangulated.triangle[p].empty()) return PatchMesh{};
+    return fill(layout, border, triangulated.triangle[p], options);
   });
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "kernels/quality/patch_border.h"
 #include "kernels/quality/refine_patch.h"
@@ -14,10 +15,11 @@ class Sides {
   Sides(const PatchBorder& border, const TransfiniteOptions& options) : border_(border), options_(options) {
     for (std::size_t s = 0; s + 1 < border.side.size(); ++s) corner_.push_back(border.side[s]);
     const Index most = std::max(Index{3}, options.most_sides);
-    while (corner_.size() > most) drop_straightest();
+    while (corner_.size() > 3 && drop_straightest(corner_.size() > most ? 180 : options.straight)) {
+    }
     while (corner_.size() < 3 && split_longest(0)) {
     }
-    while (corner_.size() >= 3 && corner_.size() < most && split_longest(options.long_side * median())) {
+    while (options.long_side > 0 && corner_.size() < most && split_longest(options.long_side * median())) {
     }
   }
 
@@ -40,7 +42,8 @@ class Sides {
     std::sort(length.begin(), length.end());
     return (length[(length.size() - 1) / 2] + length[length.size() / 2]) / 2;
   }
-  void drop_straightest() {
+  // False if all turn more than `angle`, in degrees.
+  bool drop_straightest(Real angle) {
     Index straightest = 0;
     Real most = -2;
     for (Index i = 0; i < count(); ++i) {
@@ -48,7 +51,9 @@ class Sides {
       const Real scale = in.norm() * out.norm(), cosine = scale > 0 ? in.dot(out) / scale : 1;
       if (cosine > most) most = cosine, straightest = i;
     }
+    if (most < std::cos(angle * std::numbers::pi / 180)) return false;
     corner_.erase(corner_.begin() + straightest);
+    return true;
   }
   // At the sample nearest to its middle; false if no side that can be cut is longer than `least`.
   bool split_longest(Real least) {
@@ -98,14 +103,13 @@ PatchMesh fill(const PatchBorder& border, const TransfiniteOptions& options) {
 }  // namespace
 
 Reconstruction reconstruct_transfinite(const Work& work, const SampledLayout& layout,
-                                       const TransfiniteOptions& options) {
-  return rebuild(work, layout, [&](Index, const PatchBorder& border, PolygonScratch& scratch) {
-    if (border.loops() == 1 && border.size() >= 3) {
-      PatchMesh mesh = fill(border, options);
-      if (!mesh.failed) return mesh;
-    }
-    PatchMesh mesh = triangulate_border(border, options.start, scratch);
-    if (!mesh.bridged) mesh.failed = true;
+                                       const PatchTriangulations& triangulated, const TransfiniteOptions& options) {
+  return rebuild(work, layout, [&](Index p, const PatchBorder& border) {
+    const Triangles& flat = triangulated.triangle[p];
+    if (flat.empty() || border.loops() > 1) return PatchMesh{{}, flat};
+    PatchMesh mesh = fill(border, options);
+    const std::vector<Vec3> start(mesh.inner.size(), border.point[0]);
+    if (mesh.failed || !stays_near(mesh.inner, start, border, flat, options.guard)) return PatchMesh{{}, flat, true};
     return mesh;
   });
 }

@@ -9,7 +9,7 @@
 namespace intarsia::kernels {
 
 struct RefineOptions {
-  Real step = 2;           // border steps between the inner points
+  Real step = 1;           // border steps between the inner points
   Index most_inner = 800;  // about
   int rounds = 14;
 };

@@ -46,7 +46,13 @@ Vec3 face_normal(const MeshView& mesh, Index f) {
   return (mesh.point(b) - mesh.point(a)).cross(mesh.point(c) - mesh.point(a));
 }
 
-// Area-weighted sum of the normals on the side of patch p around border vertex v.
+Vec3 unit_or_zero(const Vec3& v) {
+  const Real length = v.norm();
+  return length > 0 && std::isfinite(length) ? Vec3(v / length) : Vec3(Vec3::Zero());
+}
+
+// Area-weighted sum of the normals on the side of patch p around border vertex v. Where the border is a rounded ridge,
+// the second ring knows better how the patch leaves it than the ridge's own normal does.
 Vec3 side_normal(const MeshView& mesh, std::span<const Index> label, const std::vector<std::uint8_t>& on_border,
                  Index v, Index p) {
   Vec3 near = Vec3::Zero(), far = Vec3::Zero();
@@ -63,11 +69,6 @@ Vec3 side_normal(const MeshView& mesh, std::span<const Index> label, const std::
     }
   }
   return far.squaredNorm() > 0 ? far : near;
-}
-
-Vec3 unit_or_zero(const Vec3& v) {
-  const Real length = v.norm();
-  return length > 0 && std::isfinite(length) ? Vec3(v / length) : Vec3(Vec3::Zero());
 }
 
 class ArcSampler {

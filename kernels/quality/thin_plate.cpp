@@ -9,7 +9,7 @@
 namespace intarsia::kernels {
 namespace {
 
-constexpr Real kLeastWeight = 0.02, kMostWeight = 50;
+constexpr Real kLeastWeight = 0.02, kMostWeight = 50, kGhostStep = 0.25;
 
 using Matrix = Eigen::SparseMatrix<Real>;
 
@@ -23,7 +23,11 @@ class Plate {
     std::vector<Index> id(border, kNone);
     std::vector<int> strips(border, 0);
     for (Index i = 0; i < border; ++i)
-      if (ghost.has[i]) id[i] = static_cast<Index>(point_.size()), point_.push_back(ghost.point[i]);
+      if (ghost.has[i]) {
+        id[i] = static_cast<Index>(point_.size());
+        point_.push_back(point_[i] + ghost.outward[i]);
+        outward_.push_back({i, ghost.outward[i]});
+      }
     for (Index i = 0; i < border; ++i) {
       const Index j = next[i];
       if (id[i] == kNone || id[j] == kNone) continue;
@@ -38,9 +42,15 @@ class Plate {
     link();
   }
 
-  // uniform: every neighbour counts the same. False if the system could not be solved.
-  bool solve(bool uniform) {
+  // uniform: every neighbour counts the same. bent: the Laplacian is to be the curvature that is known at the border,
+  // spread evenly, in the direction of the last normals; else 0. False if the system could not be solved.
+  bool solve(bool uniform, bool bent) {
+    // With uniform weights ghosts must be as far away as other neighbours. With others they are nearer: the slope they
+    // give is that at their middle.
+    for (std::size_t g = 0; g < outward_.size(); ++g)
+      point_[border_ + inner_ + g] = point_[outward_[g].at] + (uniform ? 1 : kGhostStep) * outward_[g].step;
     weigh(uniform);
+    if (bent && !spread_curvature()) return false;
     std::vector<Eigen::Triplet<Real>> entry;
     Eigen::Matrix<Real, Eigen::Dynamic, 3> right = Eigen::Matrix<Real, Eigen::Dynamic, 3>::Zero(inner_, 3);
     for (Index v = 0; v < point_.size(); ++v) {
@@ -51,7 +61,7 @@ class Plate {
       for (Index n = first_[v]; n < first_[v + 1]; ++n) row_.push_back({neighbour_[n], weight_[n]}), sum += weight_[n];
       row_.push_back({v, -sum});
       const Real scale = 1 / mass_[v];
-      Vec3 fixed = Vec3::Zero();
+      Vec3 fixed = bent ? Vec3(-mass_[v] * curvature_[v] * normal_[v]) : Vec3(Vec3::Zero());
       for (const auto& [u, w] : row_)
         if (!is_inner(u)) fixed += w * point_[u];
       for (const auto& [u, w] : row_) {
@@ -99,6 +109,47 @@ class Plate {
     return weight_[static_cast<std::size_t>(std::lower_bound(begin, end, b) - neighbour_.begin())];
   }
 
+  // The signed length of the Laplacian at border points with a whole ring, continued harmonically inside.
+  bool spread_curvature() {
+    normal_.assign(point_.size(), Vec3::Zero());
+    for (const auto& t : triangle_) {
+      const Vec3 n = (point_[t[1]] - point_[t[0]]).cross(point_[t[2]] - point_[t[0]]);
+      for (const Index v : t) normal_[v] += n;
+    }
+    curvature_.assign(point_.size(), 0);
+    for (Index v = 0; v < point_.size(); ++v) {
+      const Real length = normal_[v].norm();
+      if (length > 0) normal_[v] /= length;
+      if (!has_row_[v] || is_inner(v)) continue;
+      Vec3 laplacian = Vec3::Zero();
+      for (Index n = first_[v]; n < first_[v + 1]; ++n) laplacian += weight_[n] * (point_[neighbour_[n]] - point_[v]);
+      curvature_[v] = laplacian.dot(normal_[v]) / mass_[v];
+    }
+    std::vector<Eigen::Triplet<Real>> entry;
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(inner_);
+    for (Index v = border_; v < border_ + inner_; ++v) {
+      Real sum = 0;
+      for (Index n = first_[v]; n < first_[v + 1]; ++n) {
+        const Index u = neighbour_[n];
+        if (!is_inner(u) && !has_row_[u]) continue;
+        sum += weight_[n];
+        if (!is_inner(u))
+          right[v - border_] += weight_[n] * curvature_[u];
+        else if (u < v)
+          entry.emplace_back(v - border_, u - border_, -weight_[n]);
+      }
+      entry.emplace_back(v - border_, v - border_, sum > 0 ? sum * (1 + 1e-9) : 1);
+    }
+    Matrix system(inner_, inner_);
+    system.setFromTriplets(entry.begin(), entry.end());
+    Eigen::SimplicialLDLT<Matrix, Eigen::Lower> solver(system);
+    if (solver.info() != Eigen::Success) return false;
+    const Eigen::VectorXd x = solver.solve(right);
+    if (!x.allFinite()) return false;
+    for (Index i = 0; i < inner_; ++i) curvature_[border_ + i] = x[i];
+    return true;
+  }
+
   void weigh(bool uniform) {
     if (uniform) {
       for (Index v = 0; v < point_.size(); ++v)
@@ -126,6 +177,10 @@ class Plate {
     for (Real& m : mass_) m = std::max(m, least);
   }
 
+  struct Outward {
+    Index at;
+    Vec3 step;
+  };
   struct Entry {
     Index point;
     Real weight;
@@ -138,6 +193,9 @@ class Plate {
   std::vector<Index> first_, neighbour_;
   std::vector<Real> weight_, mass_;
   std::vector<Entry> row_;
+  std::vector<Outward> outward_;  // per ghost
+  std::vector<Vec3> normal_;
+  std::vector<Real> curvature_;
   Eigen::SimplicialLDLT<Matrix, Eigen::Lower> solver_;
   bool analysed_ = false;
 };
@@ -151,8 +209,9 @@ std::vector<std::vector<Vec3>> solve_thin_plate(std::span<const Vec3> point, Ind
   std::vector<std::vector<Vec3>> shapes;
   if (point.size() == border) return shapes;
   Plate plate(point, border, triangle, next, ghost);
-  for (int round = 0; round < options.rounds; ++round) {
-    if (!plate.solve(round == 0)) break;
+  for (int round = 0; round < options.flat_rounds + options.bent_rounds; ++round) {
+    const bool bent = round >= options.flat_rounds;
+    if (!plate.solve(round == 0 && !bent, bent)) break;
     shapes.push_back(plate.inner());
   }
   return shapes;

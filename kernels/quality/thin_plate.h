@@ -1,4 +1,5 @@
-// The smooth surface through the border of a patch: least integral of the squared Laplacian.
+// The smooth surface through the border of a patch: least integral of the squared Laplacian, or of its difference from
+// the curvature that the border has.
 #pragma once
 
 #include <array>
@@ -9,15 +10,17 @@
 
 namespace intarsia::kernels {
 
-// Fixed points beyond the border that carry its tangents: point `ghost` of border position `at`. Strips between
-// consecutive positions that both have one close the rings of the border points between them.
+// Fixed points beyond the border that carry its tangents. Strips between consecutive positions that both have one
+// close the rings of the border points between them.
 struct GhostRow {
-  std::vector<Vec3> point;        // per border position
+  std::vector<Vec3> outward;      // per border position: away from the patch, one border step long
   std::vector<std::uint8_t> has;  // per border position
 };
 
 struct PlateOptions {
-  int rounds = 3;  // the first with uniform weights, the others with cotangents of the last shape
+  int flat_rounds = 1;  // thin plates: the first with uniform weights, others with cotangents of the last shape
+  int bent_rounds = 1;  // then the Laplacian is not to vanish, but to be the curvature found at the border, continued
+                        // harmonically (Schneider, Kobbelt 2000): parts of spheres and cylinders are kept as they are
 };
 
 // One shape per round that could be solved: positions of the inner points.
