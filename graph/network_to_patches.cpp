@@ -9,6 +9,7 @@
 #include "kernels/patches/even_cells.h"
 #include "kernels/patches/flood_patches.h"
 #include "kernels/patches/measure_patches.h"
+#include "kernels/patches/seed_by_error.h"
 
 namespace intarsia::graph {
 namespace {
@@ -56,6 +57,8 @@ class ErrorDriven {
       if (labels_.count > wanted) merge(wanted);
     }
     refine();
+    for (int round = 0; round < options_.refine.rounds && labels_.count == wanted; ++round)
+      if (!reconsider(wanted)) break;
     if (o.merge_tiny && options_.patches == 0) drop_slivers();
     if (options_.patches > 0 && labels_.count != wanted)
       p.warnings.push_back("wanted " + std::to_string(wanted) + " patches, got " + std::to_string(labels_.count) +
@@ -67,13 +70,8 @@ class ErrorDriven {
  private:
   void seed(Index target) {
     if (labels_.count >= target) return;
-    ReachOptions reach;
-    reach.discs = options_.subdivide.discs;
-    reach.merge = options_.subdivide.merge, reach.split = options_.subdivide.split;
-    reach.by_error = true;
-    ReachedCount reached = reach_count(work_, s_, labels_, target, reach);
-    labels_ = std::move(reached.labels);
-    reason_ = reached.reason;
+    labels_ = seed_by_error(work_, s_, labels_, target, {options_.subdivide.split, {}});
+    if (options_.subdivide.discs) labels_ = cut_to_discs(work_, s_, labels_, options_.subdivide.disc);
   }
   CellComplex complex_of(const PatchLabels& cells) const {
     const PatchTable table = measure_patches(work_, s_, cells);
@@ -84,7 +82,7 @@ class ErrorDriven {
   GroupOptions group_options() const {
     GroupOptions group = options_.refine.group;
     group.discs = options_.subdivide.discs;
-    group.perimeter_weight =
+    group.perimeter =
         options_.form == SubdivideForm::quality ? options_.refine.quality_perimeter : options_.refine.compact_perimeter;
     return group;
   }
@@ -92,7 +90,9 @@ class ErrorDriven {
     const CellComplex complex = complex_of(labels_);
     std::vector<Index> own(labels_.count);
     std::iota(own.begin(), own.end(), Index{0});
-    Grouping grouping(work_, complex, std::move(own), labels_.count, group_options());
+    Grouping grouping(work_, complex, std::move(own), labels_.count,
+                      weights_.perimeter_weight > 0 ? weights_ : group_options());
+    if (weights_.perimeter_weight == 0) grouping.weigh(target);
     reason_ = merge_groups(work_, target, grouping);
     labels_ = compact_labels(work_, grouping.spread(labels_.patch_of_face), grouping.alive());
   }
@@ -100,9 +100,26 @@ class ErrorDriven {
     if (options_.refine.swap.sweeps == 0 || labels_.count < 2) return;
     const EvenCells even = cut_even_cells(work_, s_, labels_, options_.refine.even);
     const CellComplex complex = complex_of(even.cells);
-    Grouping grouping(work_, complex, even.patch_of_cell, labels_.count, group_options());
-    swap_cells(work_, options_.refine.swap, grouping);
+    Grouping grouping(work_, complex, even.patch_of_cell, labels_.count,
+                      weights_.perimeter_weight > 0 ? weights_ : group_options());
+    if (weights_.perimeter_weight == 0) {
+      grouping.weigh(labels_.count);
+      weights_ = grouping.options();
+    }
+    cost_ = swap_cells(work_, options_.refine.swap, grouping).after;
     labels_ = compact_labels(work_, grouping.spread(even.cells.patch_of_face), grouping.alive());
+  }
+  // Patches where little is gained against patches where much is lost: some more seeds, merged back, refined.
+  // Keeps what it finds if the whole is better.
+  bool reconsider(Index wanted) {
+    const PatchLabels before = labels_;
+    const Real cost = cost_;
+    seed(static_cast<Index>(std::ceil(options_.refine.reconsider * wanted)));
+    if (labels_.count > wanted) merge(wanted);
+    refine();
+    if (labels_.count == wanted && cost_ < cost) return true;
+    labels_ = before, cost_ = cost;
+    return false;
   }
   void drop_slivers() {
     MergeOptions slivers = options_.subdivide.merge;
@@ -116,6 +133,8 @@ class ErrorDriven {
   PatchSurface s_;
   PatchLabels labels_;
   std::string reason_;
+  GroupOptions weights_;  // as the first refinement found them
+  Real cost_ = 0;         // after the last refinement
 };
 
 }  // namespace

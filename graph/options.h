@@ -32,10 +32,12 @@ enum class SubdivideForm : std::uint8_t {
 };
 
 struct RefineOptions {
-  Real compact_perimeter = 1e-5;  // w of sum of P^2 / (4 pi)
-  Real quality_perimeter = 1e-6;
+  Real compact_perimeter = 1;  // share of sum of P^2 / (4 pi) in the cost, against the errors at the start
+  Real quality_perimeter = 0.1;
   Real over_segment = 3;        // quality: times the wanted number
-  kernels::GroupOptions group;  // its perimeter_weight and discs are set from the above
+  int rounds = 3;               // of more seeds, merged back and refined again, while that helps
+  Real reconsider = 1.25;       // times the wanted number in such a round
+  kernels::GroupOptions group;  // its perimeter and discs are set from the above
   kernels::CellOptions cell;
   kernels::EvenCellOptions even;
   kernels::SwapOptions swap;

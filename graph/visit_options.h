@@ -42,10 +42,12 @@ void visit_options(Options& o, V&& v) {
   v("patches.trim", o.subdivide.split.trim, "share of the area left out at each end of the spread", 0.0, 0.45);
   v("patches.tiny-area", o.subdivide.merge.tiny_area, "smaller shares of the surface are merged", 0.0, 0.5);
   v("patches.discs", o.subdivide.discs, "cut patches until each is a disc", 0, 1);
-  v("refine.compact-perimeter", o.refine.compact_perimeter, "compact: price of P^2 / 4 pi against error", 0.0, 1.0);
-  v("refine.quality-perimeter", o.refine.quality_perimeter, "quality: price of P^2 / 4 pi against error", 0.0, 1.0);
-  v("refine.salience", o.refine.group.salience_weight, "price of features inside patches", 0.0, 1.0);
+  v("refine.compact-perimeter", o.refine.compact_perimeter, "compact: weight of P^2 / 4 pi against error", 0.0, 100.0);
+  v("refine.quality-perimeter", o.refine.quality_perimeter, "quality: weight of P^2 / 4 pi against error", 0.0, 100.0);
+  v("refine.salience", o.refine.group.salience, "price of features inside patches", 0.0, 100.0);
   v("refine.over-segment", o.refine.over_segment, "quality: patches before merging, times --patches", 1.0, 10.0);
+  v("refine.rounds", o.refine.rounds, "more seeds, merged back and refined, so many times while it helps", 0, 100);
+  v("refine.reconsider", o.refine.reconsider, "times --patches in such a round", 1.0, 10.0);
   v("refine.cells", o.refine.even.per_patch, "cells of an average patch that may change sides", 2, 200);
   v("refine.sweeps", o.refine.swap.sweeps, "moves per cell at most; 0 = borders are not refined", 0, 100);
   v("smooth.iterations", o.smooth.iterations, "steps of boundary smoothing", 0, 1000);

@@ -36,7 +36,7 @@ struct WeightedPoints {
 };
 
 struct OutlineOptions {
-  Index loop_points = 48;  // even steps of the longest loop
+  Index loop_points = 48;  // even steps of the longest loop; all loops together at most about twice as many
   LoopsOptions loops{.polygon = {.exact = false}, .bridges = 1, .combinations = 1};
 };
 

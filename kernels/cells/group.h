@@ -10,11 +10,14 @@
 namespace intarsia::kernels {
 
 // Cost of a patch: integral of the squared distance to its reconstruction + w P^2 / (4 pi) + s times the salience of
-// the features inside. Diagonals: the first two terms have the unit diagonal^4 and diagonal^2.
+// the features inside (integral of theta^2 ds). What is right for one shape is far too strong for a simpler one, so the
+// weights are given relative to the errors and perimeters of the patches that refinement starts from.
 struct GroupOptions {
-  Real perimeter_weight = 1e-5;  // w
-  Real salience_weight = 1e-5;   // s; salience: integral of theta^2 ds
-  bool discs = true;             // groups must be discs, or no farther from it than what they are made from
+  Real perimeter = 1;         // share of the cost of all perimeters in that of all errors, at the start
+  Real salience = 0.6;        // price of one radian^2 x diagonal, in errors of all patches at the start
+  Real perimeter_weight = 0;  // w, absolute; set by Grouping::weigh
+  Real salience_weight = 0;   // s
+  bool discs = true;          // groups must be discs, or no farther from it than what they are made from
   OutlineOptions outline;
 };
 

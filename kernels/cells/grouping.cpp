@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
 #include "engine/parallel/for_each.h"
 #include "engine/parallel/scratch_pool.h"
@@ -44,6 +45,16 @@ std::vector<Index> Grouping::neighbours(Index g) const {
   return found;
 }
 
+void Grouping::weigh(Index wanted) {
+  Real round = 0;
+  for (Index g = 0; g < size(); ++g)
+    if (is_alive(g)) round += shape_[g].perimeter * shape_[g].perimeter / (4 * std::numbers::pi);
+  const Real share = wanted > 0 ? static_cast<Real>(alive_) / static_cast<Real>(wanted) : 1;
+  const Real error = total_error() * share * share;
+  options_.perimeter_weight = round > 0 ? options_.perimeter * error / round : 0;
+  options_.salience_weight = options_.salience * error;
+}
+
 Real Grouping::total_cost() const {
   Real sum = 0;
   for (Index g = 0; g < size(); ++g)
@@ -68,19 +79,34 @@ void Grouping::merge(const Work& work, Index into, Index from) {
   refresh(work, {into});
 }
 
-void Grouping::move(const Work& work, Index cell, Index to) {
+void Grouping::place(Index cell, Index to) {
   const Index from = group_[cell];
   group_[cell] = to;
   std::erase(cells_[from], cell);
   cells_[to].insert(std::lower_bound(cells_[to].begin(), cells_[to].end(), cell), cell);
-  ++version_[from], ++version_[to];
-  std::vector<Index> changed = neighbours(from);  // their corners may have moved
-  const std::vector<Index> more = neighbours(to);
-  changed.insert(changed.end(), more.begin(), more.end());
-  changed.push_back(from), changed.push_back(to);
+}
+
+bool Grouping::try_move(const Work& work, Index cell, Index to, Real least) {
+  const Index from = group_[cell];
+  std::vector<Index> changed = neighbours(from);
+  const auto add = [&](const std::vector<Index>& more) { changed.insert(changed.end(), more.begin(), more.end()); };
+  add(neighbours(to));
+  place(cell, to);
+  add(neighbours(from)), add(neighbours(to)), add({from, to});
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-  refresh(work, std::move(changed));
+  std::vector<GroupShape> old;
+  Real before = 0, after = 0;
+  for (const Index g : changed) old.push_back(shape_[g]), before += cost(g);
+  refresh(work, changed);
+  for (const Index g : changed) after += cost(g);
+  if (after < before - least) {
+    ++version_[from], ++version_[to];
+    return true;
+  }
+  place(cell, from);
+  for (std::size_t i = 0; i < changed.size(); ++i) shape_[changed[i]] = old[i];
+  return false;
 }
 
 std::vector<Index> Grouping::spread(std::span<const Index> cell_of_face) const {

@@ -25,6 +25,9 @@ class Grouping {
   Real cost(Index g) const { return cost_of(shape_[g], options_); }
   Index version(Index g) const { return version_[g]; }  // counts changes of its set of cells
   std::vector<Index> neighbours(Index g) const;         // groups across its border, ascending
+  // Fixes the weights of perimeters and features by the shapes as they are now. A number of patches other than `wanted`
+  // is allowed for: errors fall with the square of the number.
+  void weigh(Index wanted);
   Real total_cost() const;
   Real total_error() const;
 
@@ -34,12 +37,15 @@ class Grouping {
   }
 
   void merge(const Work& work, Index into, Index from);
-  void move(const Work& work, Index cell, Index to);
+  // Moves a cell if the total cost, corners of the groups around included, falls by more than `least`; otherwise nothing
+  // changes. Returns whether it moved.
+  bool try_move(const Work& work, Index cell, Index to, Real least);
 
   // Patch of every face, from its cell; compact ids in order of the smallest face.
   std::vector<Index> spread(std::span<const Index> cell_of_face) const;
 
  private:
+  void place(Index cell, Index to);
   void refresh(const Work& work, std::vector<Index> groups);
 
   const CellComplex* complex_;

@@ -100,9 +100,10 @@ SwapResult swap_cells(const Work& work, const SwapOptions& options, Grouping& g)
       const Move m = moves[i];
       const Index from = g.group_of(m.cell);
       if (busy[from] || busy[m.to] || result.moves >= most) continue;
-      busy[from] = busy[m.to] = 1;
-      g.move(work, m.cell, m.to);
-      ++result.moves;
+      if (g.try_move(work, m.cell, m.to, least / 2))
+        busy[from] = busy[m.to] = 1, ++result.moves;
+      else
+        moves[i].gain = 0;  // the neighbours would lose more than is won
     }
   }
   result.after = g.total_cost();

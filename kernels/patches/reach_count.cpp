@@ -62,10 +62,6 @@ class Halving {
     constexpr Real kFlatWorth = 1e-4;  // lets area decide among flat patches
     if (faces_[p].size() < 2) return;
     const Shape shape = measure(faces_[p]);
-    if (options_.by_error) {
-      queue_.push({region_error(s_, {p, 0, faces_[p]}, regions_, options_.error, scratch_), shape.area, p});
-      return;
-    }
     queue_.push({shape.energy + kFlatWorth * shape.area, shape.area, p});
   }
   void restore(Index p) {
@@ -149,7 +145,6 @@ class Halving {
   const ReachOptions& options_;
   Regions regions_;
   Vec3Array normal_;
-  RegionErrorScratch scratch_;
   std::vector<std::vector<Index>> faces_;
   std::priority_queue<std::tuple<Real, Real, Index>> queue_;
 };
