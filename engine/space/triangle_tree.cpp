@@ -251,7 +251,9 @@ Real TriangleTree::first_hit(const Vec3& origin, const Vec3& direction, Real lea
       continue;
     }
     entries(tree.node[entry.child], origin.data(), inverse, best, value);
-    top = push_children(tree.node[entry.child], value, best, stack.data(), top);
+    // Boxes that the ray misses are at infinity: farther than any limit, also before the first hit.
+    top = push_children(tree.node[entry.child], value, std::min(best, std::numeric_limits<Real>::max()), stack.data(),
+                        top);
   }
   return best;
 }
