@@ -4,9 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/parallel/for_each.h"
-#include "kernels/layout/patch_of_faces.h"
-
 namespace intarsia::graph {
 namespace {
 
@@ -34,6 +31,38 @@ Rebuilt measured(const Work& work, kernels::Reconstruction surface, const Refere
   return r;
 }
 
+Real area_of(const MeshView& mesh, Index f) {
+  const auto [a, b, c] = mesh.face(f);
+  return (mesh.point(b) - mesh.point(a)).cross(mesh.point(c) - mesh.point(a)).norm() / 2;
+}
+
+// For every face of the input the patch with most of its area, ties to the smaller id. From areas alone, since layouts
+// from files do not know where on the input their vertices lie.
+std::vector<Index> labels_of_faces(const MeshView& mesh, const RefinedMesh& refined, std::span<const Index> label) {
+  struct Part {
+    Index parent, label;
+    Real area;
+  };
+  const MeshView fine = refined.mesh;
+  std::vector<Part> part(fine.face_count());
+  for (Index f = 0; f < fine.face_count(); ++f) part[f] = {refined.parent[f], label[f], area_of(fine, f)};
+  std::stable_sort(part.begin(), part.end(), [](const Part& a, const Part& b) {
+    return std::pair(a.parent, a.label) < std::pair(b.parent, b.label);
+  });
+  std::vector<Index> out(mesh.face_count(), kNone);
+  for (std::size_t i = 0; i < part.size();) {
+    const Index parent = part[i].parent;
+    Real best = -1;
+    while (i < part.size() && part[i].parent == parent) {
+      const Index l = part[i].label;
+      Real area = 0;
+      for (; i < part.size() && part[i].parent == parent && part[i].label == l; ++i) area += part[i].area;
+      if (area > best * (1 + 1e-9)) best = area, out[parent] = l;
+    }
+  }
+  return out;
+}
+
 // The smallest value that at least `share` of them do not exceed.
 Real quantile(const std::vector<Real>& sorted, Real share) {
   if (sorted.empty()) return 0;
@@ -57,8 +86,7 @@ Compactness compactness_of(const kernels::SampledLayout& sampled, const MeshView
   Compactness c;
   std::vector<Real> area(patches, 0), perimeter(patches, 0), length(sampled.arc.rows(), 0);
   for (Index f = 0; f < mesh.face_count(); ++f) {
-    const auto [i, j, k] = mesh.face(f);
-    area[label[f]] += (mesh.point(j) - mesh.point(i)).cross(mesh.point(k) - mesh.point(i)).norm() / 2;
+    area[label[f]] += area_of(mesh, f);
   }
   for (Index a = 0; a < sampled.arc.rows(); ++a) {
     const auto row = sampled.arc.row(a);
@@ -91,7 +119,7 @@ Evaluation evaluate(const Work& work, const MeshView& mesh, const RefinedMesh& r
     if (sampled.patch_loops.row(p).size() != 1) ++e.not_discs;
 
   const Reference input{triangles_of(mesh), TriangleTree(work, triangles_of(mesh)),
-                        kernels::patch_of_original_faces(work, mesh, refined, label)};
+                        labels_of_faces(mesh, refined, label)};
   const auto measure = [&](kernels::Reconstruction surface) {
     return measured(work, std::move(surface), input, e.patches, options);
   };

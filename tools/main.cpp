@@ -36,6 +36,7 @@ int main(int argc, char** argv) {
   add_features_command(app, exit_code);
   add_make_command(app, exit_code);
   add_distance_command(app, exit_code);
+  add_eval_command(app, exit_code);
   add_seg_eval_command(app, exit_code);
   add_baseline_command(app, exit_code);
   try {

@@ -1,0 +1,229 @@
+#include "tools/write_evaluation.h"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "engine/io/write_ply.h"
+#include "tools/deviation.h"
+#include "tools/picture/best_view.h"
+#include "tools/picture/palette.h"
+#include "tools/picture/png_file.h"
+#include "tools/picture/strip.h"
+
+namespace intarsia::tools {
+namespace {
+
+using graph::Rebuilt;
+using nlohmann::json;
+
+const char* metric_name(PolygonMetric metric) {
+  switch (metric) {
+    case PolygonMetric::area:
+      return "area";
+    case PolygonMetric::area_bend:
+      return "area-bend";
+    case PolygonMetric::squared_dihedral:
+      return "squared-dihedral";
+    case PolygonMetric::worst_dihedral:
+      return "worst-dihedral";
+  }
+  return "";
+}
+
+json distances(Real max, Real mean, Real rms, Real unit) {
+  return {{"hausdorff", unit * max}, {"mean", unit * mean}, {"rms", unit * rms}};
+}
+
+json rebuilt_json(const Rebuilt& r, Real diagonal) {
+  const kernels::SurfaceDistance& d = r.distance;
+  json out = distances(d.hausdorff(), d.mean(), d.rms(), 1);
+  out["absolute"] = distances(d.hausdorff(), d.mean(), d.rms(), diagonal);
+  out["forward"] = distances(d.forward.max, d.forward.mean, d.forward.rms, 1);
+  out["backward"] = distances(d.backward.max, d.backward.mean, d.backward.rms, 1);
+  out["triangles"] = r.surface.patch.size();
+  out["bridged"] = r.surface.bridged_count();
+  out["failed"] = r.failed;
+  return out;
+}
+
+json settings_json(const graph::EvaluateOptions& o) {
+  return {{"loop_samples", o.sample.loop_samples},
+          {"least_closed", o.sample.least_closed},
+          {"metric", metric_name(o.triangulated.polygon.metric)},
+          {"bend_weight", o.triangulated.polygon.bend_weight},
+          {"exact", o.triangulated.polygon.exact},
+          {"bridges", o.triangulated.bridges},
+          {"transfinite",
+           {{"most_sides", o.transfinite.most_sides},
+            {"straight_degrees", o.transfinite.straight},
+            {"guard", o.transfinite.guard}}},
+          {"filled",
+           {{"step", o.filled.step},
+            {"most_inner", o.filled.most_inner},
+            {"flat_rounds", o.filled.flat_rounds},
+            {"bent_rounds", o.filled.bent_rounds},
+            {"guard", o.filled.guard},
+            {"normals", o.filled.use_normals}}},
+          {"distance_samples", o.distance.samples}};
+}
+
+std::string title_of(const std::string& name) {
+  if (name == "triangulated") return "triangulated";
+  if (name == "triangulated_area") return "by area alone";
+  return name == "transfinite" ? "transfinite" : "filled";
+}
+
+std::string file_of(const std::string& name) {
+  return "recon-" + (name == "triangulated_area" ? std::string("area") : name) + ".ply";
+}
+
+void write_rebuilt(const Work& work, const std::filesystem::path& path, const Rebuilt& r,
+                   const kernels::BoxTransform& box, const std::vector<Rgb>& colour) {
+  const kernels::Reconstruction& s = r.surface;
+  PlyFile ply;
+  ply.comment("rebuilt from the curves of a layout; int patch per face");
+  auto& vertex = ply.element("vertex", s.point.size());
+  const char* axis[] = {"x", "y", "z"};
+  for (int i = 0; i < 3; ++i)
+    vertex.column<double>(axis[i], [&, i](std::size_t v) { return box.to_input(s.point[v])[i]; });
+  auto& face = ply.element("face", s.patch.size());
+  face.triangles(s.corner).column<std::int32_t>("patch", s.patch);
+  face.column<std::uint8_t>("red", [&](std::size_t f) { return colour[s.patch[f]].r; });
+  face.column<std::uint8_t>("green", [&](std::size_t f) { return colour[s.patch[f]].g; });
+  face.column<std::uint8_t>("blue", [&](std::size_t f) { return colour[s.patch[f]].b; });
+  write_ply(work, path, ply);
+}
+
+std::vector<Rgb> colours_of_patches(const Work& work, const LayoutFromFile& layout) {
+  return patch_colours(work, adjacent_patches(work, layout.refined.mesh, layout.label, layout.graph.patch_count()));
+}
+
+// The arcs as polylines on the refined mesh.
+Lines arc_lines(const LayoutFromFile& layout) {
+  Lines lines;
+  std::vector<Vec3> point;
+  for (Index a = 0; a < layout.graph.arc_count(); ++a) {
+    point.clear();
+    for (const Index v : layout.graph.arc.row(a)) point.push_back(layout.refined.mesh.view().point(v));
+    lines.add(point, kBorderLine);
+  }
+  return lines;
+}
+
+// Borders between patches of a rebuilt surface.
+Lines border_lines(const kernels::Reconstruction& r) {
+  struct Side {
+    Index a, b, patch;
+  };
+  std::vector<Side> side;
+  for (std::size_t t = 0; t < r.patch.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index a = r.corner[3 * t + i], b = r.corner[3 * t + (i + 1) % 3];
+      side.push_back({std::min(a, b), std::max(a, b), r.patch[t]});
+    }
+  std::sort(side.begin(), side.end(),
+            [](const Side& x, const Side& y) { return std::tuple(x.a, x.b, x.patch) < std::tuple(y.a, y.b, y.patch); });
+  Lines lines;
+  for (std::size_t s = 0; s < side.size();) {
+    std::size_t e = s + 1;
+    bool border = true;
+    for (; e < side.size() && side[e].a == side[s].a && side[e].b == side[s].b; ++e)
+      border = border && side[e].patch != side[s].patch;
+    if (border) lines.add(std::array{r.point[side[s].a], r.point[side[s].b]}, kBorderLine);
+    s = e;
+  }
+  return lines;
+}
+
+std::string percent(Real value) { return fmt::format("{:.3g} %", 100 * value); }
+
+}  // namespace
+
+std::vector<std::string> evaluation_names() {
+  return {"recon-triangulated.ply",
+          "recon-area.ply",
+          "recon-transfinite.ply",
+          "recon-filled.ply",
+          "deviation.ply",
+          "eval.json",
+          "eval.png"};
+}
+
+json evaluation_json(const graph::Evaluation& e, const graph::EvaluateOptions& options, Real diagonal) {
+  json out = {{"diagonal", diagonal}, {"patches", e.patches}, {"not_discs", e.not_discs}, {"samples", e.samples}};
+  out["compactness"] = {
+      {"median", e.compactness.median}, {"percentile_90", e.compactness.high}, {"max", e.compactness.most}};
+  for (const auto& [name, rebuilt] : e.made()) out[name] = rebuilt_json(*rebuilt, diagonal);
+  json rows = json::array();
+  for (Index p = 0; p < e.patches; ++p) {
+    json row = {{"patch", p}, {"compactness", e.compactness.patch[p]}};
+    for (const auto& [name, rebuilt] : e.made())
+      row[name] = {{"rms", rebuilt->patch[p].rms}, {"max", rebuilt->patch[p].max}};
+    rows.push_back(std::move(row));
+  }
+  out["patch_table"] = std::move(rows);
+  out["settings"] = settings_json(options);
+  return out;
+}
+
+Image draw_evaluation(const Work& work, const LayoutFromFile& layout, const graph::Evaluation& evaluation,
+                      const std::optional<View>& view) {
+  const auto made = evaluation.made();
+  const std::vector<Rgb> colour = colours_of_patches(work, layout);
+  // One scale for all maps, so that they can be compared.
+  std::vector<Real> all, weight;
+  for (const auto& [name, r] : made) {
+    for (const Real rms : r->distance.face_rms) all.push_back(100 * rms);
+    weight.insert(weight.end(), r->distance.face_area.begin(), r->distance.face_area.end());
+  }
+  const ColourScale scale = scale_for(all, weight, "distance, % of the diagonal");
+
+  Strip strip;
+  strip.options.legend = false;
+  strip.options.width = 480, strip.options.height = 440;
+  strip.options.per_row = static_cast<int>(made.size()) + 1;
+  Shape input = shape_of(layout.mesh.view());
+  strip.options.view = view ? *view : best_view(work, input);
+
+  Shape patched = shape_of(layout.refined.mesh.view());
+  patched.face_label = layout.label, patched.label_colour = colour;
+  strip.add({"layout", fmt::format("{} patches, q {:.2f} median", evaluation.patches, evaluation.compactness.median),
+             patched, arc_lines(layout)});
+  for (const auto& [name, r] : made) {
+    Shape shape;
+    shape.x = r->surface.point.x, shape.y = r->surface.point.y, shape.z = r->surface.point.z;
+    shape.corner = r->surface.corner, shape.face_label = r->surface.patch, shape.label_colour = colour;
+    shape.smooth = name == "filled" || name == "transfinite";
+    strip.add({title_of(name), fmt::format("{} triangles", r->surface.patch.size()), shape, border_lines(r->surface)});
+  }
+  strip.add({"input", fmt::format("{} triangles", layout.mesh.face_count()), input, {}});
+  std::vector<std::vector<Rgb>> map;
+  map.reserve(made.size());
+  for (const auto& [name, r] : made) {
+    std::vector<Real> value = r->distance.face_rms;
+    for (Real& v : value) v *= 100;
+    map.push_back(tools::colours_of(work, value, scale));
+    Shape shape = input;
+    shape.face_colour = map.back();
+    strip.add({"distance",
+               fmt::format("RMS {}, largest {}", percent(r->distance.rms()), percent(r->distance.hausdorff())),
+               shape,
+               {}});
+  }
+  return with_scale_bar(draw_strip(work, strip), scale);
+}
+
+void write_evaluation(const Work& work, const OutputFolder& folder, const LayoutFromFile& layout,
+                      const graph::Evaluation& evaluation, const std::optional<View>& view) {
+  const std::vector<Rgb> colour = colours_of_patches(work, layout);
+  for (const auto& [name, rebuilt] : evaluation.made())
+    write_rebuilt(work, folder.file(file_of(name)), *rebuilt, layout.box, colour);
+  const Deviation deviation{layout.soup, evaluation.made().front().second->distance, layout.box.diagonal};
+  write_deviation_ply(work, folder.file("deviation.ply"), deviation, deviation_scale(deviation));
+  write_png(folder.file("eval.png"), draw_evaluation(work, layout, evaluation, view));
+}
+
+}  // namespace intarsia::tools

@@ -1,0 +1,31 @@
+// The files of an evaluation: rebuilt surfaces, deviation, numbers, picture.
+#pragma once
+
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/io/output_folder.h"
+#include "graph/evaluate.h"
+#include "tools/picture/camera.h"
+#include "tools/picture/image.h"
+#include "tools/read_layout.h"
+
+namespace intarsia::tools {
+
+// Every file name that an evaluation may write.
+std::vector<std::string> evaluation_names();
+
+// eval.json without the input and the time: docs/formats.md.
+nlohmann::json evaluation_json(const graph::Evaluation& evaluation, const graph::EvaluateOptions& options,
+                               Real diagonal);
+
+// recon-*.ply, deviation.ply (of the triangulated surface, or the first one that was made) and eval.png.
+void write_evaluation(const Work& work, const OutputFolder& folder, const LayoutFromFile& layout,
+                      const graph::Evaluation& evaluation, const std::optional<View>& view);
+
+// Layout and rebuilt surfaces above, input and deviations below.
+Image draw_evaluation(const Work& work, const LayoutFromFile& layout, const graph::Evaluation& evaluation,
+                      const std::optional<View>& view);
+
+}  // namespace intarsia::tools
