@@ -23,6 +23,9 @@ constexpr std::array kNames{
     Named{Method::vsa_refined, "VSA + refinement", "vsa-refined"},
     Named{Method::vsa_seeded, "VSA + seeds + refinement", "vsa-seeded"},
     Named{Method::vsa_merged, "VSA + merging + refinement", "vsa-merged"},
+    Named{Method::qse, "QSE-like", "qse"},
+    Named{Method::exoskeleton, "ExoSkeleton-like", "exoskeleton"},
+    Named{Method::slippage, "slippage-like", "slippage"},
 };
 
 const Named& named(Method method) {
@@ -48,6 +51,12 @@ Patches baseline_by(const Work& work, const Prepared& p, const Network& network,
       const Index more = static_cast<Index>(options.refine.over_segment * options.patches);
       return improve_patches(work, p.surface, network, plain(more).labels, as_they_come);
     }
+    case Method::qse:
+      return baseline_patches(work, p.surface, network, Baseline::qse, options.patches);
+    case Method::exoskeleton:
+      return baseline_patches(work, p.surface, network, Baseline::exoskeleton, options.patches);
+    case Method::slippage:
+      return baseline_patches(work, p.surface, network, Baseline::slippage, options.patches);
     default:
       return plain(options.patches);
   }

@@ -35,7 +35,6 @@ struct Prepared {
   Sharp sharp;
   Curvature curvature;
   Curves curves;
-  double seconds = 0;  // processor time of what only our methods need is not told apart
 };
 
 Prepared prepare(const Work& work, const Soup& soup, const LayoutOptions& options);

@@ -52,8 +52,7 @@ class ErrorDriven {
     labels_ = std::move(start);
     if (!finished) {
       if (o.discs) labels_ = cut_to_discs(work_, s_, labels_, o.disc);
-      const Real factor = options_.form == SubdivideForm::quality ? options_.refine.over_segment : 1;
-      seed(static_cast<Index>(std::ceil(factor * wanted)));
+      seed(static_cast<Index>(std::ceil(options_.refine.over_segment * wanted)));
       if (labels_.count > wanted) merge(wanted);
     }
     refine();

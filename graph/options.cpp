@@ -23,6 +23,7 @@ LayoutOptions paper_options(std::uint64_t seed) {
   o.extension.paper_queue = true;
   o.subdivide = kernels::paper_subdivision(seed);
   o.smooth.nearest_direction = false;
+  o.guard_smoothing = false;
   return o;
 }
 

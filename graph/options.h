@@ -27,15 +27,16 @@ enum class Mode : std::uint8_t { robust, paper };
 // How the network's patches become the wanted number (section 10; lessons 7, 8 and 15).
 enum class SubdivideForm : std::uint8_t {
   faithful,  // the paper's: variational shape approximation inside each patch of the network
-  compact,   // the network kept, new seeds where the reconstruction is worst, borders refined by cells
-  quality,   // three times as many, merged by reconstruction error, borders refined by cells
+  compact,   // over-segmented by new seeds where the reconstruction is worst, merged by reconstruction error, borders
+             // refined by cells; winding borders cost as much as errors
+  quality,   // the same from a richer network, with little regard for winding borders
 };
 
 struct RefineOptions {
-  Real compact_perimeter = 1;  // share of sum of P^2 / (4 pi) in the cost, against the errors at the start
-  Real quality_perimeter = 0.1;
-  Real over_segment = 3;        // quality: times the wanted number
-  int rounds = 3;               // of more seeds, merged back and refined again, while that helps
+  Real compact_perimeter = 1.5;  // share of sum of P^2 / (4 pi) in the cost, against the errors at the start
+  Real quality_perimeter = 0.35;
+  Real over_segment = 3;        // times the wanted number, then merged
+  int rounds = 4;               // of more seeds, merged back and refined again, while that helps
   Real reconsider = 1.25;       // times the wanted number in such a round
   kernels::GroupOptions group;  // its perimeter and discs are set from the above
   kernels::CellOptions cell;
@@ -71,6 +72,7 @@ struct LayoutOptions {
   kernels::SubdivideOptions subdivide;
   RefineOptions refine;
   kernels::SmoothOptions smooth;
+  bool guard_smoothing = true;  // borders stay as they were where smoothing them spoils the reconstruction
   kernels::CrossOptions cross;
   kernels::CheckOptions check;
 };

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <numeric>
 
 #include "engine/parallel/for_each.h"
 #include "graph/stages.h"
+#include "kernels/cells/grouping.h"
 #include "kernels/layout/match_labels.h"
 #include "kernels/layout/patch_of_faces.h"
 #include "kernels/layout/trace_boundaries.h"
@@ -24,8 +26,8 @@ struct Embedded {
 
 // Smoothed arcs that would break the layout go back to the chains they were traced from; if that does not help, all do.
 Embedded embed_smoothed(const Work& work, const Surface& surface, const Network& network, const PatchLabels& old,
-                        const LayoutGraph& graph, const SmoothedArcs& smoothed, const CrossOptions& options) {
-  std::vector<std::uint8_t> keep(graph.arc_count(), 0);
+                        const LayoutGraph& graph, const SmoothedArcs& smoothed, std::vector<std::uint8_t> keep,
+                        const CrossOptions& options) {
   constexpr int kAttempts = 4;
   for (int attempt = 0;; ++attempt) {
     if (attempt == kAttempts) std::fill(keep.begin(), keep.end(), 1);
@@ -51,6 +53,36 @@ Embedded embed_smoothed(const Work& work, const Surface& surface, const Network&
     out.kept_chains = static_cast<Index>(std::count(crossed.as_traced.begin(), crossed.as_traced.end(), 1));
     return out;
   }
+}
+
+// Reconstruction error of every patch.
+std::vector<Real> patch_errors(const Work& work, const Surface& surface, const RefinedMesh& refined,
+                               const PatchLabels& labels, const LayoutGraph& graph, Real hole_length) {
+  const PatchSurface measured = make_patch_surface(work, refined, surface.face_normal, surface.mean_edge, hole_length);
+  const PatchTable table = measure_patches(work, measured, labels);
+  CellOptions options;
+  options.smoothing = 0;
+  const CellComplex complex = make_cell_complex(work, refined, labels, table, graph, hole_length, options);
+  std::vector<Index> own(labels.count);
+  std::iota(own.begin(), own.end(), Index{0});
+  GroupOptions group;
+  group.outline.loop_points = 85;
+  const Grouping grouping(work, complex, std::move(own), labels.count, group);
+  std::vector<Real> error(labels.count);
+  for (Index p = 0; p < labels.count; ++p) error[p] = grouping.shape(p).error;
+  return error;
+}
+
+// Patches that smoothing their borders made much worse: twice as bad, and of weight in the whole.
+std::vector<Index> spoilt_patches(const std::vector<Real>& before, const std::vector<Real>& after) {
+  constexpr Real kWorse = 2, kWeight = 1;
+  Real total = 0;
+  for (const Real e : before) total += e;
+  const Real mean = total / static_cast<Real>(std::max<std::size_t>(1, before.size()));
+  std::vector<Index> spoilt;
+  for (Index p = 0; p < before.size(); ++p)
+    if (after[p] > kWorse * before[p] && after[p] - before[p] > kWeight * mean) spoilt.push_back(p);
+  return spoilt;
 }
 
 // Chosen features that ended up inside patches, as chains of the refined edges they became.
@@ -85,12 +117,25 @@ Layout patches_to_layout(const Work& work, const Surface& surface, const Curvatu
   const LayoutGraph rough = trace_boundaries(work, network.refined, old.patch_of_face, old.count);
   const SmoothedArcs smoothed = smooth_boundaries(work, surface.mesh, network.refined, rough, old.patch_of_face,
                                                   curvature.fields, options.smooth);
-  Embedded e = embed_smoothed(work, surface, network, old, rough, smoothed, options.cross);
+  std::vector<std::uint8_t> keep(rough.arc_count(), 0);
+  std::vector<Real> before;
   Layout layout;
-  layout.refined = std::move(e.refined);
-  layout.labels = std::move(e.labels);
-  layout.kept_chains = e.kept_chains;
-  layout.graph = trace_boundaries(work, layout.refined, layout.labels.patch_of_face, layout.labels.count);
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) {
+    Embedded e = embed_smoothed(work, surface, network, old, rough, smoothed, keep, options.cross);
+    layout.refined = std::move(e.refined);
+    layout.labels = std::move(e.labels);
+    layout.kept_chains = e.kept_chains;
+    layout.graph = trace_boundaries(work, layout.refined, layout.labels.patch_of_face, layout.labels.count);
+    if (!options.guard_smoothing || round + 1 == kRounds) break;
+    const Real hole = options.check.hole_length;
+    if (round == 0) before = patch_errors(work, surface, network.refined, old, rough, hole);
+    const std::vector<Index> spoilt =
+        spoilt_patches(before, patch_errors(work, surface, layout.refined, layout.labels, layout.graph, hole));
+    if (spoilt.empty()) break;
+    const std::vector<std::uint8_t> more = arcs_of_patches(rough, spoilt);
+    for (std::size_t a = 0; a < keep.size(); ++a) keep[a] |= more[a];
+  }
   const PatchSurface measured =
       make_patch_surface(work, layout.refined, surface.face_normal, surface.mean_edge, options.check.hole_length);
   layout.table = measure_patches(work, measured, layout.labels);

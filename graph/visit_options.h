@@ -45,11 +45,12 @@ void visit_options(Options& o, V&& v) {
   v("refine.compact-perimeter", o.refine.compact_perimeter, "compact: weight of P^2 / 4 pi against error", 0.0, 100.0);
   v("refine.quality-perimeter", o.refine.quality_perimeter, "quality: weight of P^2 / 4 pi against error", 0.0, 100.0);
   v("refine.salience", o.refine.group.salience, "price of features inside patches", 0.0, 100.0);
-  v("refine.over-segment", o.refine.over_segment, "quality: patches before merging, times --patches", 1.0, 10.0);
+  v("refine.over-segment", o.refine.over_segment, "patches before merging, times --patches", 1.0, 10.0);
   v("refine.rounds", o.refine.rounds, "more seeds, merged back and refined, so many times while it helps", 0, 100);
   v("refine.reconsider", o.refine.reconsider, "times --patches in such a round", 1.0, 10.0);
   v("refine.cells", o.refine.even.per_patch, "cells of an average patch that may change sides", 2, 200);
   v("refine.sweeps", o.refine.swap.sweeps, "moves per cell at most; 0 = borders are not refined", 0, 100);
+  v("smooth.guard", o.guard_smoothing, "keep borders whose smoothing spoils the reconstruction", 0, 1);
   v("smooth.iterations", o.smooth.iterations, "steps of boundary smoothing", 0, 1000);
   v("smooth.length-weight", o.smooth.length_weight, "length against alignment in Eq. 8 (lambda)", 0.001, 1000.0);
   v("smooth.reach", o.smooth.free_reach, "how far a free border may move, mean edges", 0.0, 10.0);

@@ -35,6 +35,7 @@ int main(int argc, char** argv) {
   add_run_command(app, exit_code);
   add_features_command(app, exit_code);
   add_make_command(app, exit_code);
+  add_table1_command(app, exit_code);
   add_distance_command(app, exit_code);
   add_eval_command(app, exit_code);
   add_seg_eval_command(app, exit_code);

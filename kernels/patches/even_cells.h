@@ -6,9 +6,9 @@
 namespace intarsia::kernels {
 
 struct EvenCellOptions {
-  Index per_patch = 10;  // of a patch of average area
-  Index least = 6;       // in every patch
-  Index most = 40;
+  Index per_patch = 20;  // of a patch of average area
+  Index least = 8;       // in every patch
+  Index most = 80;
   RelaxOptions relax{.passes = 20, .length_weight = 0.4, .fit_normals = false};
 };
 
