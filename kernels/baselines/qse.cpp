@@ -17,6 +17,7 @@ struct State {
   std::vector<Index> region;
   std::vector<std::vector<Index>> faces;  // per region, ascending
   std::vector<Quadric> quadric;
+  std::vector<Real> area;
   std::vector<Real> energy;  // area times mean error
 
   Index count() const { return static_cast<Index>(faces.size()); }
@@ -43,6 +44,12 @@ class Fit {
     while (now_.count() > wanted && merge_round(now_.count() - wanted)) {
     }
     iterate();
+    if (options_.same_within > 0) {
+      now_ = best_;
+      bool merged = false;
+      while (merge_round(now_.count() - 1, options_.same_within)) merged = true;
+      if (merged) best_ = State{}, iterate();
+    }
     QseFit fit;
     fit.region = std::move(best_.region), fit.quadric = std::move(best_.quadric), fit.energy = best_.total();
     return fit;
@@ -56,7 +63,7 @@ class Fit {
 
   struct Fitted {
     Quadric quadric;
-    Real energy;
+    Real area, energy;
   };
   // At most options.samples faces, evenly spread over the lists (face numbers follow a space-filling order).
   Fitted fit_lists(std::initializer_list<std::span<const Index>> lists) const {
@@ -74,6 +81,7 @@ class Fit {
       }
     Fitted r;
     r.quadric = fit_quadric(samples, quadric_);
+    r.area = area;
     r.energy = area * quadric_error(r.quadric, samples, quadric_.normal_weight);
     return r;
   }
@@ -81,10 +89,10 @@ class Fit {
   void refit(State& s, Index count) const {
     s.faces.assign(count, {});
     for (Index f = 0; f < graph_.faces(); ++f) s.faces[s.region[f]].push_back(f);
-    s.quadric.resize(count), s.energy.resize(count);
+    s.quadric.resize(count), s.area.resize(count), s.energy.resize(count);
     for_each(work_, Cost::single, count, [&](std::size_t r) {
       const Fitted fit = fit_lists({s.faces[r]});
-      s.quadric[r] = fit.quadric, s.energy[r] = fit.energy;
+      s.quadric[r] = fit.quadric, s.area[r] = fit.area, s.energy[r] = fit.energy;
     });
   }
 
@@ -123,8 +131,9 @@ class Fit {
     return moves;
   }
 
-  // The cheapest merges, a fifth of all at once at most, each region in one only.
-  bool merge_round(Index most) {
+  // The cheapest merges, a fifth of all at once at most, each region in one only. within: only if the error (root mean
+  // square) of the union stays below.
+  bool merge_round(Index most, Real within = std::numeric_limits<Real>::infinity()) {
     const std::vector<Move> moves = merges();
     const Index limit = std::min(most, std::max(Index{1}, now_.count() / 5));
     std::vector<Index> into(now_.count());
@@ -134,17 +143,20 @@ class Fit {
     for (const Move& m : moves) {
       if (done == limit) break;
       if (used[m.a] || used[m.b]) continue;
+      const Real energy = m.loss + now_.energy[m.a] + now_.energy[m.b];
+      if (!(energy <= within * within * (now_.area[m.a] + now_.area[m.b]))) continue;
       used[m.a] = used[m.b] = 1;
       into[m.b] = m.a;
       ++done;
     }
+    if (done == 0) return false;
     Index count = 0;
     std::vector<Index> fresh(now_.count());
     for (Index r = 0; r < now_.count(); ++r)
       if (into[r] == r) fresh[r] = count++;
     for (Index& r : now_.region) r = fresh[into[r]];
     refit(now_, count);
-    return done > 0;
+    return true;
   }
 
   // As teleport() of planes: a merged pair pays for a cut elsewhere.

@@ -17,6 +17,7 @@ struct QseOptions {
   Real normal_weight = 0.1;  // w; times the mean area of a patch
   Index overshoot = 3;       // starts from so many times K planes, merged by their quadrics
   Index samples = 400;       // faces of a region that its fit looks at
+  Real same_within = 0;      // regions whose union keeps its error below become one, a length; 0 = K stay K
   Real tolerance = 1e-3;     // relative gain of a round of steps that still counts
 };
 
@@ -28,7 +29,8 @@ struct QseFit {
   Index count() const { return static_cast<Index>(quadric.size()); }
 };
 
-// Ensures: every region connected; counts as fit_planes.
+// Ensures: every region connected; count = min(patches, faces), but never below the number of components, or fewer
+// where regions are pieces of one quadric (same_within).
 QseFit fit_quadrics(const Work& work, const MeshView& mesh, const FaceGraph& graph, const QseOptions& options);
 
 }  // namespace intarsia::kernels

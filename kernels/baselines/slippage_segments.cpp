@@ -101,22 +101,22 @@ class Segments {
     }
   };
 
-  // What the motions of the more slippable of the two come to if they must serve both, by area.
+  // What the motions of the more slippable of the two come to if they must serve both; a motion that is lost costs a
+  // fixed sum. Weighed by the harmonic mean of the areas: small patches find their way into large ones first.
   Real cost_of(Index a, Index b) const {
     const int motions = std::clamp(std::max(kind_[a], kind_[b]), 1, 3);
     SlippageSums both = sum_[a];
     both += sum_[b];
-    return both.weight * slippage_of(both).error(motions) - own_error(a, motions) - own_error(b, motions);
+    const Slippage s = slippage_of(both);
+    Real cost = 0;
+    for (int j = 0; j < motions; ++j) cost += std::min(s.value[j], options_.lost * s.value[5]);
+    return both.weight > 0 ? cost / std::max(s.value[5], 1e-300) * sum_[a].weight * sum_[b].weight / both.weight : 0;
   }
-  Real own_error(Index p, int motions) const { return sum_[p].weight * value_[p].head(motions).sum(); }
-  void describe(Index p) {
-    const Slippage s = slippage_of(sum_[p]);
-    kind_[p] = s.dimension(options_.limit), value_[p] = s.value;
-  }
+  void describe(Index p) { kind_[p] = slippage_of(sum_[p]).dimension(options_.limit); }
 
   void merge() {
     const Index count = static_cast<Index>(sum_.size());
-    kind_.resize(count), value_.resize(count);
+    kind_.resize(count);
     for (Index p = 0; p < count; ++p) describe(p);
     std::vector<std::vector<Index>> around(count);
     const auto pairs = adjacent_regions(balls_.graph, patch_);
@@ -214,7 +214,6 @@ class Segments {
   std::vector<Index> patch_;       // per ball
   std::vector<SlippageSums> sum_;  // per patch
   std::vector<int> kind_;
-  std::vector<Vector6> value_;
   std::vector<Index> into_;
 };
 

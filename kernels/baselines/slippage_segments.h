@@ -12,6 +12,7 @@ struct SlippageOptions {
   Index patches = 40;
   Index pieces = 6000;  // the surface is looked at in about so many balls of faces
   Real limit = 0.05;    // of value / greatest value: below it a motion slips
+  Real lost = 0.1;      // most that one motion costs in a merge, same share
   Real stable = 0.25;   // neighbourhoods grow until the condition number changes by less than this share
   Real growth = 0.01;   // first patches grow as long as their motions cost less than this share of the greatest value
 };
