@@ -47,8 +47,11 @@ std::vector<Index> baseline_labels(const Work& work, const Surface& surface, Bas
   switch (method) {
     case Baseline::vsa:
       return fit_planes(work, faces, {.patches = patches}).region;
-    case Baseline::qse:
-      return fit_quadrics(work, surface.mesh, faces, {.patches = patches}).region;
+    case Baseline::qse: {
+      // As in the comparison of Cao, Yan, Wonka 2014: where quadrics need fewer patches, planes divide them.
+      const QseFit fit = fit_quadrics(work, surface.mesh, faces, {.patches = patches, .same_within = 2e-3});
+      return fit_parts(work, faces, {fit.region, fit.count()}, patches).patch_of_face;
+    }
     case Baseline::exoskeleton:
       return fit_parts(work, faces, parts_of(work, surface, faces, patches, parts), patches).patch_of_face;
     case Baseline::slippage:
