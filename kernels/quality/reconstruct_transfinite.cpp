@@ -9,6 +9,8 @@
 namespace intarsia::kernels {
 namespace {
 
+constexpr Real kTurnReach = 0.04;  // of the border: chords between which a corner's turn is measured
+
 // Sides as runs of border positions: side i is corner[i] .. corner[i + 1] (cyclic).
 class Sides {
  public:
@@ -46,8 +48,12 @@ class Sides {
   bool drop_straightest(Real angle) {
     Index straightest = 0;
     Real most = -2;
+    const Index n = border_.size();
+    const Index reach = std::max(Index{1}, static_cast<Index>(kTurnReach * static_cast<Real>(n)));
     for (Index i = 0; i < count(); ++i) {
-      const Vec3 in = curve((i + count() - 1) % count()).slope_at_end(), out = curve(i).slope_at_start();
+      const Vec3 at = border_.point[corner_[i]];
+      const Vec3 in = at - border_.point[(corner_[i] + n - reach) % n];
+      const Vec3 out = border_.point[(corner_[i] + reach) % n] - at;
       const Real scale = in.norm() * out.norm(), cosine = scale > 0 ? in.dot(out) / scale : 1;
       if (cosine > most) most = cosine, straightest = i;
     }
