@@ -12,26 +12,40 @@ std::pair<Index, Index> across(const PatchSurface& s, const Regions& regions, In
   return g == kNone ? std::pair{kNone, kNone} : std::pair{regions.source[g], regions.label[g]};
 }
 
+bool is_fixed(const PatchSurface& s, Index corner) {
+  const Index e = s.mesh.face_edge[corner];
+  return s.strength[e] > 0 || s.mesh.is_boundary_edge(e);
+}
+
+Index start_of(const PatchSurface& s, Index corner) { return s.mesh.corner[3 * (corner / 3) + (corner % 3 + 1) % 3]; }
+Index end_of(const PatchSurface& s, Index corner) { return s.mesh.corner[3 * (corner / 3) + (corner % 3 + 2) % 3]; }
+
+// Between two half-edges that follow each other: another neighbour, or a feature or boundary that turns by more than 60
+// degrees. Free borders zigzag along mesh edges and have no corners of their own.
+bool is_corner(const PatchSurface& s, const Regions& regions, Index here, Index next) {
+  if (across(s, regions, here) != across(s, regions, next)) return true;
+  if (!is_fixed(s, here) || !is_fixed(s, next)) return is_fixed(s, here) != is_fixed(s, next);
+  const Vec3 middle = s.mesh.point(end_of(s, here));
+  const Vec3 a = middle - s.mesh.point(start_of(s, here)), b = s.mesh.point(end_of(s, next)) - middle;
+  return a.dot(b) < 0.5 * a.norm() * b.norm();
+}
+
 void add_loop(const PatchSurface& s, const Regions& regions, std::span<const Index> loop, int smoothing,
               Outline& outline) {
   const std::size_t n = loop.size();
   std::size_t from = 0;
   for (std::size_t k = 0; k < n; ++k)
-    if (across(s, regions, loop[k]) != across(s, regions, loop[(k + n - 1) % n])) {
+    if (is_corner(s, regions, loop[(k + n - 1) % n], loop[k])) {
       from = k;
       break;
     }
-  bool feature = false;
-  const auto start_of = [&](Index corner) { return s.mesh.corner[3 * (corner / 3) + (corner % 3 + 1) % 3]; };
   for (std::size_t k = 0; k < n; ++k) {
     const Index here = loop[(from + k) % n], next = loop[(from + k + 1) % n];
-    outline.point.push_back(s.mesh.point(start_of(here)));
-    feature = feature || s.strength[s.mesh.face_edge[here]] > 0;
-    if (k + 1 < n && across(s, regions, here) == across(s, regions, next)) continue;
-    outline.point.push_back(s.mesh.point(start_of(next)));
-    if (!feature) smooth_polyline(std::span(outline.point).subspan(outline.piece.back()), smoothing);
+    outline.point.push_back(s.mesh.point(start_of(s, here)));
+    if (k + 1 < n && !is_corner(s, regions, here, next)) continue;
+    outline.point.push_back(s.mesh.point(end_of(s, here)));
+    if (!is_fixed(s, here)) smooth_polyline(std::span(outline.point).subspan(outline.piece.back()), smoothing);
     outline.end_piece();
-    feature = false;
   }
   outline.end_loop();
 }

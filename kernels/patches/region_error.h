@@ -20,8 +20,8 @@ struct RegionErrorScratch {
   OutlineScratch error;
 };
 
-// Loops of border edges in order, region on the left, as polylines with corners where the region across changes. Holes
-// of the surface that count as filled are left out.
+// Loops of border edges in order, region on the left, as polylines with corners where the region across changes or a
+// feature or the boundary turns. Holes of the surface that count as filled are left out.
 void region_outline(const PatchSurface& surface, const Region& region, const Regions& regions, int smoothing,
                     RegionErrorScratch& scratch);
 

@@ -1,0 +1,77 @@
+#include "engine/space/outline.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <doctest/doctest.h>
+
+using namespace intarsia;
+
+namespace {
+
+void add_square(Outline& o, Real size, Real z, bool reversed) {
+  const Real s = size / 2;
+  std::vector<Vec3> corner{{-s, -s, z}, {s, -s, z}, {s, s, z}, {-s, s, z}};
+  if (reversed) std::reverse(corner.begin(), corner.end());
+  for (std::size_t k = 0; k < 4; ++k) {
+    o.point.push_back(corner[k]), o.point.push_back(corner[(k + 1) % 4]);
+    o.end_piece();
+  }
+  o.end_loop();
+}
+
+}  // namespace
+
+TEST_CASE("points above a square: the error is the weight times the squared height") {
+  Outline o;
+  add_square(o, 2, 0, false);
+  CHECK(o.length() == doctest::Approx(8));
+  WeightedPoints samples;
+  samples.add({0.3, -0.2, 0.5}, 3);
+  samples.add({-0.9, 0.9, -0.1}, 2);
+  OutlineScratch scratch;
+  CHECK(outline_error(o, samples, {}, scratch) == doctest::Approx(3 * 0.25 + 2 * 0.01).epsilon(1e-12));
+}
+
+TEST_CASE("a flat ring is rebuilt as a ring: a point in its hole is far from it") {
+  Outline o;
+  add_square(o, 4, 0, false), add_square(o, 2, 0, true);
+  WeightedPoints ring, hole;
+  ring.add({1.5, 0.2, 0}, 1), ring.add({-1.2, -1.7, 0}, 1);
+  hole.add({0, 0, 0}, 1);
+  OutlineScratch scratch;
+  CHECK(outline_error(o, ring, {}, scratch) < 1e-20);
+  CHECK(outline_error(o, hole, {}, scratch) == doctest::Approx(1));
+}
+
+TEST_CASE("a circle: the error of its centre plane is zero, and without loops that of the mean") {
+  Outline o;
+  for (int k = 0; k <= 200; ++k) {
+    const Real a = 2 * std::numbers::pi * k / 200;
+    o.point.push_back({std::cos(a), std::sin(a), 1});
+  }
+  o.end_piece(), o.end_loop();
+  WeightedPoints samples;
+  samples.add({0, 0, 1}, 1), samples.add({0.2, 0, 3}, 1);
+  OutlineScratch scratch;
+  CHECK(outline_error(o, samples, {}, scratch) == doctest::Approx(4));
+  CHECK(outline_error(Outline(), samples, {}, scratch) == doctest::Approx(2 * (0.01 + 1)));
+}
+
+TEST_CASE("smoothing keeps the ends, straight lines, and takes out a zigzag") {
+  std::vector<Vec3> straight, zigzag;
+  for (int k = 0; k <= 20; ++k) {
+    straight.push_back({0.1 * k, 0, 0});
+    zigzag.push_back({0.1 * k, k % 2 ? 0.05 : 0.0, 0});
+  }
+  const auto ends = std::pair{zigzag.front(), zigzag.back()};
+  auto same = straight;
+  smooth_polyline(same, 10);
+  for (std::size_t k = 0; k < same.size(); ++k) CHECK((same[k] - straight[k]).norm() < 1e-14);
+  smooth_polyline(zigzag, 10);
+  CHECK(zigzag.front() == ends.first);
+  CHECK(zigzag.back() == ends.second);
+  Real length = 0;
+  for (std::size_t k = 1; k < zigzag.size(); ++k) length += (zigzag[k] - zigzag[k - 1]).norm();
+  CHECK(length < 2.01);  // from 2.24
+}

@@ -1,0 +1,80 @@
+#include "kernels/patches/seed_by_error.h"
+
+#include <numbers>
+
+#include <doctest/doctest.h>
+
+#include "kernels/patches/even_cells.h"
+#include "kernels/patches/flood_patches.h"
+#include "tests/kernels/patches/patch_checks.h"
+#include "tests/support/run_with_threads.h"
+
+using namespace intarsia;
+using namespace intarsia::kernels;
+using namespace intarsia::test;
+
+namespace {
+
+// A flat square beside half a tube of the same width; they meet in a crease.
+Soup flat_and_round() {
+  return grid(40, 12, false, false, Diagonals::regular, [](Real u, Real v) {
+    if (u < 0.5) return Vec3(-1 + 2 * u, v, 0);
+    const Real a = std::numbers::pi * (2 * u - 1);
+    return Vec3(0.5 - 0.5 * std::cos(a), v, 0.5 * std::sin(a));
+  });
+}
+
+}  // namespace
+
+TEST_CASE("the border of a flat square rebuilds it, that of half a tube does not") {
+  const TestRefinement t = sharp_refinement(flat_and_round(), 1.0);
+  const PatchSurface s = surface_of(t);
+  const PatchLabels labels = flood_patches(Work(), s.mesh, t.refined.on_network);
+  REQUIRE(labels.count == 2);
+  const Csr faces = faces_of_patches(labels);
+  const Regions regions(labels);
+  RegionErrorScratch scratch;
+  std::array<Real, 2> error{};
+  for (Index p = 0; p < 2; ++p) error[p] = region_error(s, {p, 0, faces.row(p)}, regions, {}, scratch);
+  CHECK(std::min(error[0], error[1]) < 1e-20);
+  // Two half circles apart span the tube as a flat strip across: at most its radius off, on average much of it.
+  CHECK(std::max(error[0], error[1]) > 1e-3);
+}
+
+TEST_CASE("seeds go where the error is: the flat patch stays whole") {
+  const TestRefinement t = sharp_refinement(flat_and_round(), 1.0);
+  const PatchSurface s = surface_of(t);
+  const PatchLabels labels = flood_patches(Work(), s.mesh, t.refined.on_network);
+  const auto run = [&](int threads) {
+    return run_with_threads(threads, [&] { return seed_by_error(Work(), s, labels, 7, {}); });
+  };
+  const PatchLabels seeded = run(1);
+  CHECK(seeded.count == 7);
+  CHECK(run(3) == seeded);
+  Index flat = kNone;
+  for (Index f = 0; f < s.mesh.face_count(); ++f) {
+    if (s.centroid(f).x() > 0) continue;
+    if (flat == kNone) flat = seeded.patch_of_face[f];
+    CHECK(seeded.patch_of_face[f] == flat);
+  }
+}
+
+TEST_CASE("even cells lie inside patches, are connected, and of about even size") {
+  const TestRefinement t = sharp_refinement(cube(12), 1.0);
+  const PatchSurface s = surface_of(t);
+  const PatchLabels labels = flood_patches(Work(), s.mesh, t.refined.on_network);
+  EvenCellOptions options;
+  options.per_patch = 10;
+  const EvenCells even = cut_even_cells(Work(), s, labels, options);
+  CHECK(even.cells.count == 60);
+  CHECK(flood_equal(Work(), s.mesh, even.cells.patch_of_face).count == 60);
+  std::vector<Real> area(60, 0);
+  for (Index f = 0; f < s.mesh.face_count(); ++f) {
+    CHECK(even.patch_of_cell[even.cells.patch_of_face[f]] == labels.patch_of_face[f]);
+    area[even.cells.patch_of_face[f]] += s.area[f];
+  }
+  for (const Real a : area) {
+    CHECK(a > 0.02);
+    CHECK(a < 0.3);
+  }
+}
