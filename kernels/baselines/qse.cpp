@@ -43,12 +43,12 @@ class Fit {
     const Index wanted = std::max(options_.patches, connected_pieces(graph_).count);
     while (now_.count() > wanted && merge_round(now_.count() - wanted)) {
     }
-    iterate();
+    iterate(options_.teleport_every > 0);
     if (options_.same_within > 0) {
       now_ = best_;
       bool merged = false;
       while (merge_round(now_.count() - 1, options_.same_within)) merged = true;
-      if (merged) best_ = State{}, iterate();
+      if (merged) best_ = State{}, iterate(false);
     }
     QseFit fit;
     fit.region = std::move(best_.region), fit.quadric = std::move(best_.quadric), fit.energy = best_.total();
@@ -205,13 +205,13 @@ class Fit {
     if (best_.region.empty() || now_.total() < best_.total()) best_ = now_;
   }
 
-  void iterate() {
+  void iterate(bool teleports) {
     keep_if_better();
     const int round = options_.teleport_every > 0 ? options_.teleport_every : options_.iterations;
     for (int done = 0; done < options_.iterations; done += round) {
       const Real before = best_.total();
       now_ = best_;
-      if (options_.teleport_every > 0 && teleport()) keep_if_better();
+      if (teleports && teleport()) keep_if_better();
       for (int i = 0; i < std::min(round, options_.iterations - done); ++i) {
         regrow();
         keep_if_better();
