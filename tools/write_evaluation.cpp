@@ -46,6 +46,7 @@ json rebuilt_json(const Rebuilt& r, Real diagonal) {
   out["triangles"] = r.surface.patch.size();
   out["bridged"] = r.surface.bridged_count();
   out["failed"] = r.failed;
+  out["cut"] = r.surface.cut_count();
   return out;
 }
 

@@ -29,6 +29,10 @@ PatchBorder border_of(const SampledLayout& layout, Index patch) {
   return border;
 }
 
+Index Reconstruction::cut_count() const {
+  return static_cast<Index>(std::count(cut.begin(), cut.end(), std::uint8_t{1}));
+}
+
 void for_each_patch(const Work& work, const SampledLayout& layout,
                     const std::function<void(Index patch, PatchBorder&& border)>& body) {
   const Index patches = layout.patch_count();
@@ -48,20 +52,22 @@ Index Reconstruction::failed_count() const {
   return static_cast<Index>(std::count(failed.begin(), failed.end(), std::uint8_t{1}));
 }
 
-bool stays_near(std::span<const Vec3> shape, std::span<const Vec3> start, const PatchBorder& border,
-                const Triangles& triangle, Real share) {
-  Vec3 low = border.point[0], high = border.point[0];
-  for (const Vec3& p : border.point) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  const Real reach = share * (high - low).norm();
+bool stays_near(std::span<const Vec3> shape, std::span<const Vec3> start, std::span<const Vec3> point,
+                const Triangles& triangle, Real reach) {
   for (std::size_t i = 0; i < shape.size(); ++i) {
-    if ((shape[i] - start[i]).norm() <= reach) continue;
+    if (!start.empty() && (shape[i] - start[i]).norm() <= reach) continue;
     const bool near = std::any_of(triangle.begin(), triangle.end(), [&](const auto& t) {
-      const Vec3 foot = closest_on_triangle(shape[i], border.point[t[0]], border.point[t[1]], border.point[t[2]]);
-      return (foot - shape[i]).norm() <= reach;
+      return (closest_on_triangle(shape[i], point[t[0]], point[t[1]], point[t[2]]) - shape[i]).norm() <= reach;
     });
     if (!near) return false;
   }
   return true;
+}
+
+Real diagonal_of(std::span<const Vec3> point) {
+  Vec3 low = point[0], high = point[0];
+  for (const Vec3& p : point) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  return (high - low).norm();
 }
 
 Reconstruction rebuild(const Work& work, const SampledLayout& layout, const MakePatch& make) {
@@ -82,6 +88,7 @@ Reconstruction rebuild(const Work& work, const SampledLayout& layout, const Make
     first_triangle[p] = static_cast<Index>(mesh[p].triangle.size());
     out.bridged.push_back(border[p].loops() > 1 ? 1 : 0);
     out.failed.push_back(mesh[p].failed ? 1 : 0);
+    out.cut.push_back(mesh[p].cut ? 1 : 0);
   }
   const Index samples = static_cast<Index>(layout.point.size());
   out.point.resize(samples + exclusive_scan(work, std::span<Index>(first_inner)));

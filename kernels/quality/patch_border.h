@@ -29,7 +29,7 @@ using Triangles = std::vector<std::array<Index, 3>>;
 struct PatchMesh {
   std::vector<Vec3> inner;
   Triangles triangle;
-  bool failed = false;
+  bool failed = false, cut = false;
 };
 
 // body(patch, its border) for every patch, side by side, the longest borders first.
@@ -42,9 +42,11 @@ using MakePatch = std::function<PatchMesh(Index patch, const PatchBorder& border
 // failed.
 Reconstruction rebuild(const Work& work, const SampledLayout& layout, const MakePatch& make);
 
-// Whether every point is within `share` of the border's diagonal of its triangulation. start: points of the
-// triangulation, one for each, that are likely near.
-bool stays_near(std::span<const Vec3> shape, std::span<const Vec3> start, const PatchBorder& border,
-                const Triangles& triangle, Real share);
+// Whether every point is within `reach` of the triangles. start: points of them, one for each, that are likely near;
+// or empty.
+bool stays_near(std::span<const Vec3> shape, std::span<const Vec3> start, std::span<const Vec3> point,
+                const Triangles& triangle, Real reach);
+
+Real diagonal_of(std::span<const Vec3> point);
 
 }  // namespace intarsia::kernels

@@ -19,7 +19,9 @@ struct Reconstruction {
   std::vector<std::uint8_t> bridged;  // per patch: it has several loops
   std::vector<std::uint8_t> failed;   // per patch: it was left out (no loop, no triangulation) or, in the fills, fell
                                       // back to its triangulation
+  std::vector<std::uint8_t> cut;      // per patch: transfinite patches only, it was cut into parts
   Index bridged_count() const;
+  Index cut_count() const;
   Index failed_count() const;
 };
 
@@ -37,8 +39,8 @@ Reconstruction reconstruct_triangulated(const Work& work, const SampledLayout& l
 struct TransfiniteOptions {
   Index most_sides = 8;    // patches with more: the corners that turn least are no corners any more
   Real straight = 45;      // degrees: nodes where the border turns less are no corners, if three others remain
-  Real long_side = 0;      // medians: sides longer than this are cut at their middle; 0: none
-  Real guard = 0.15;       // patch diagonals it may move away from the triangulation; else it falls back to that
+  Real guard = 0.02;       // diagonals a patch may move away from its triangulation; beyond, it is cut in two along a
+                           // chord of that, and each part is a transfinite patch of its own
   Real step = 1;           // sample steps between the inner points
   Index most_inner = 800;  // inner points per patch, about
 };
@@ -49,7 +51,7 @@ Reconstruction reconstruct_transfinite(const Work& work, const SampledLayout& la
                                        const PatchTriangulations& triangulated, const TransfiniteOptions& options);
 
 struct FillOptions {
-  int flat_rounds = 1;     // see PlateOptions
+  int flat_rounds = 1;  // see PlateOptions
   int bent_rounds = 1;
   Real guard = 0.25;       // patch diagonals a fill may move away from its triangulation; else it falls back to it
   Real step = 1;           // sample steps between the inner points

@@ -49,13 +49,14 @@ PatchMesh fill(const SampledLayout& layout, const PatchBorder& border, const Tri
   }
   const auto shapes =
       solve_thin_plate(point, border.size(), mesh.triangle, next, ghost, {options.flat_rounds, options.bent_rounds});
+  const Real reach = options.guard * diagonal_of(border.point);
   for (auto shape = shapes.rbegin(); shape != shapes.rend(); ++shape) {
-    if (!stays_near(*shape, start, border, flat, options.guard)) continue;
+    if (!stays_near(*shape, start, border.point, flat, reach)) continue;
     mesh.inner = *shape;
     return mesh;
   }
   // Without inner points there is nothing to bend; otherwise every solve went astray.
-  return {{}, flat, !start.empty()};
+  return {{}, flat, !start.empty(), false};
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ std::pair<Real, Real> deviation(const kernels::Reconstruction& r, const Distance
 
 inline bool same(const kernels::Reconstruction& a, const kernels::Reconstruction& b) {
   return a.point.x == b.point.x && a.point.y == b.point.y && a.point.z == b.point.z && a.corner == b.corner &&
-         a.patch == b.patch && a.bridged == b.bridged && a.failed == b.failed;
+         a.patch == b.patch && a.bridged == b.bridged && a.failed == b.failed && a.cut == b.cut;
 }
 
 }  // namespace intarsia::test

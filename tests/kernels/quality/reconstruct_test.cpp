@@ -34,6 +34,11 @@ Real farthest_from(const kernels::Reconstruction& r, const kernels::Reconstructi
   return most;
 }
 
+// A square of the given width with n x n cells.
+Soup plane_of(Real width, Index n) {
+  return height_field(n, n, 0, width, 0, width, [](Real, Real) { return 0.0; });
+}
+
 LayoutCase tube_with_lids() {
   return identity_case(
       capped_cylinder(1, 3, 48, 20),
@@ -71,8 +76,14 @@ TEST_CASE("octants of a sphere: the fill with tangents is nearly the sphere") {
     check_watertight(s, trace(c), *r);
     CHECK(r->failed_count() == 0);
   }
-  const auto flat = deviation(all.triangulated, off), coons = deviation(all.transfinite, off),
-             plate = deviation(all.filled, off);
+  kernels::TransfiniteOptions whole;
+  whole.guard = 1;
+  const kernels::PatchTriangulations start = kernels::triangulate_patches(Work(), s, {});
+  const kernels::Reconstruction uncut = kernels::reconstruct_transfinite(Work(), s, start, whole);
+  check_watertight(s, trace(c), uncut);
+  CHECK(uncut.cut_count() == 0);
+  CHECK(all.transfinite.cut_count() == 8);  // an eighth of a sphere bulges by more than the guard allows
+  const auto flat = deviation(all.triangulated, off), coons = deviation(uncut, off), plate = deviation(all.filled, off);
   CHECK(flat.first > .05);  // an octant's border says little about its inside
   CHECK(coons.first < .05);
   CHECK(plate.first < .02);
@@ -146,6 +157,24 @@ TEST_CASE("patches of a random partition of a closed surface fit together") {
       for (const auto* r : {&all.triangulated, &all.transfinite, &all.filled}) check_watertight(s, trace(c), *r);
     }
   }
+}
+
+TEST_CASE("a bent strip is cut into parts that do not fold") {
+  // An L of width 1 and length 4 in the plane: the transfinite patch of its six sides leaves it.
+  const auto inside = [](const Vec3& p) { return p.x() < 1 || p.y() < 1; };
+  const LayoutCase c = identity_case(
+      plane_of(4, 32), [&](const MeshView& m, Index f) { return inside(centroid(m, f)) ? 0u : 1u; }, CurveKind::sharp);
+  const kernels::SampledLayout s = sampled(c, 100);
+  const kernels::PatchTriangulations start = kernels::triangulate_patches(Work(), s, {});
+  const auto cut = kernels::reconstruct_transfinite(Work(), s, start, {});
+  kernels::TransfiniteOptions whole;
+  whole.guard = 1;
+  const auto uncut = kernels::reconstruct_transfinite(Work(), s, start, whole);
+  check_watertight(s, trace(c), cut);
+  check_watertight(s, trace(c), uncut);
+  CHECK(cut.cut_count() == 1);
+  CHECK(area_of(cut, 0) < 7.2);  // 7 without folds
+  CHECK(area_of(uncut, 0) > 7.5);
 }
 
 TEST_CASE("fills that go astray fall back") {
