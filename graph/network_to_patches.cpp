@@ -58,7 +58,6 @@ class ErrorDriven {
     refine();
     for (int round = 0; round < options_.refine.rounds && labels_.count == wanted; ++round)
       if (!reconsider(wanted)) break;
-    if (o.merge_tiny && options_.patches == 0) drop_slivers();
     if (options_.patches > 0 && labels_.count != wanted)
       p.warnings.push_back("wanted " + std::to_string(wanted) + " patches, got " + std::to_string(labels_.count) +
                            (reason_.empty() ? "" : ": " + reason_));
@@ -120,11 +119,6 @@ class ErrorDriven {
     labels_ = before, cost_ = cost;
     return false;
   }
-  void drop_slivers() {
-    MergeOptions slivers = options_.subdivide.merge;
-    slivers.keep_discs = options_.subdivide.discs;
-    labels_ = merge_patches(work_, s_, labels_, slivers);
-  }
 
   const Work& work_;
   const Network& network_;
@@ -142,7 +136,8 @@ Patches network_to_patches(const Work& work, const Surface& surface, const Netwo
                            const LayoutOptions& options) {
   SubdivideOptions o = options.subdivide;
   o.patches = options.patches;
-  if (options.form == SubdivideForm::faithful)
+  // Without a number the paper's rules say how many and where; nothing is to be traded against anything.
+  if (options.form == SubdivideForm::faithful || (options.form == SubdivideForm::compact && options.patches == 0))
     return from_subdivision(subdivide(work, network.refined, surface.face_normal, surface.mean_edge, o));
   Patches p;
   ErrorDriven driven(work, surface, network, options);
@@ -150,15 +145,9 @@ Patches network_to_patches(const Work& work, const Surface& surface, const Netwo
     driven.run(p, driven.network_labels(p), options.patches, false);
     return p;
   }
-  // Without a number the rules of the paper decide how many.
-  Subdivision s = subdivide(work, network.refined, surface.face_normal, surface.mean_edge, o);
-  const Index count = s.labels.count;
-  if (options.form == SubdivideForm::quality) {
-    driven.run(p, driven.network_labels(p), count, false);
-  } else {
-    driven.run(p, std::move(s.labels), count, true);
-    p.network_patches = s.network_patches, p.merged_patches = s.merged_patches;
-  }
+  // Quality without a number: as many as the rules ask for.
+  const Subdivision s = subdivide(work, network.refined, surface.face_normal, surface.mean_edge, o);
+  driven.run(p, driven.network_labels(p), s.labels.count, false);
   p.warnings.insert(p.warnings.end(), s.warnings.begin(), s.warnings.end());
   return p;
 }

@@ -75,13 +75,13 @@ std::vector<Real> patch_errors(const Work& work, const Surface& surface, const R
 
 // Patches that smoothing their borders made much worse: twice as bad, and of weight in the whole.
 std::vector<Index> spoilt_patches(const std::vector<Real>& before, const std::vector<Real>& after) {
-  constexpr Real kWorse = 2, kWeight = 1;
+  constexpr Real kWorse = 2, kWeight = 1, kNothing = 1e-12;  // diagonals^4: what rounding makes
   Real total = 0;
   for (const Real e : before) total += e;
   const Real mean = total / static_cast<Real>(std::max<std::size_t>(1, before.size()));
   std::vector<Index> spoilt;
   for (Index p = 0; p < before.size(); ++p)
-    if (after[p] > kWorse * before[p] && after[p] - before[p] > kWeight * mean) spoilt.push_back(p);
+    if (after[p] > kWorse * before[p] && after[p] - before[p] > kWeight * mean + kNothing) spoilt.push_back(p);
   return spoilt;
 }
 

@@ -93,9 +93,14 @@ Real outline_error(const Outline& outline, const WeightedPoints& samples, const 
                    OutlineScratch& s) {
   if (samples.point.empty()) return 0;
   if (outline.loops() > 0) {
-    sample_loops(outline, options.loop_points, s);
-    const LoopsTriangulation t = triangulate_loops(s.point, s.offset, {}, options.loops, s.polygon);
-    if (t.ok && !t.triangle.empty()) return sum_of_squares(samples, s.point, t.triangle, s.normal);
+    Real worse = -1;
+    for (const Index points : {options.loop_points, options.second_points}) {
+      if (points == 0) continue;
+      sample_loops(outline, points, s);
+      const LoopsTriangulation t = triangulate_loops(s.point, s.offset, {}, options.loops, s.polygon);
+      if (t.ok && !t.triangle.empty()) worse = std::max(worse, sum_of_squares(samples, s.point, t.triangle, s.normal));
+    }
+    if (worse >= 0) return worse;
   }
   Vec3 mean = Vec3::Zero();
   Real weight = 0;

@@ -68,7 +68,8 @@ std::vector<Move> list_moves(const Grouping& g, const std::vector<Move>& known) 
 SwapResult swap_cells(const Work& work, const SwapOptions& options, Grouping& g) {
   SwapResult result;
   result.before = g.total_cost();
-  const Real least = options.least_gain * result.before / std::max<Index>(1, g.alive());
+  constexpr Real kNothing = 1e-13;  // diagonals^4: what rounding makes of patches that are rebuilt exactly
+  const Real least = std::max(kNothing, options.least_gain * result.before / std::max<Index>(1, g.alive()));
   const Index most = static_cast<Index>(options.sweeps) * g.complex().cells();
   auto pool = make_scratch_pool([] { return GroupScratch(); });
   std::vector<Move> moves;
