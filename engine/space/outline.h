@@ -39,7 +39,7 @@ struct OutlineOptions {
   Index loop_points = 48;  // even steps of the longest loop; all loops together at most about twice as many
   // The same with another number of points, 0 = not asked; the worse of both counts. Some borders have two very
   // different triangulations of nearly equal cost: which one wins must not depend on where the samples fall.
-  Index second_points = 0;
+  Index second_points = 37;
   LoopsOptions loops{.polygon = {.exact = false}, .bridges = 1, .combinations = 1};
 };
 
