@@ -1,13 +1,14 @@
 #include "graph/artefacts.h"
 
-#include "engine/base/hash.h"
+#include "engine/parallel/hash_array.h"
 #include "graph/fields_visitor.h"
 
 namespace intarsia {
 
 std::uint64_t hash_of(const Soup& a) {
   Hash h;
-  h.add(a.x), h.add(a.y), h.add(a.z), h.add(a.corner), h.add(a.source_face);
+  for (const auto* c : {&a.x, &a.y, &a.z}) h.add(hash_array(Work{}, *c));
+  for (const auto* i : {&a.corner, &a.source_face}) h.add(hash_array(Work{}, *i));
   return h.value();
 }
 std::size_t bytes_of(const Soup& a) {
@@ -24,7 +25,7 @@ struct Hasher {
   Hash hash;
   template <class T>
   void array(const std::vector<T>& a) {
-    hash.add(a);
+    hash.add(hash_array(Work{}, a));
   }
   template <class T>
   void scalar(const T& s) {
