@@ -4,27 +4,35 @@ namespace intarsia {
 
 DiscWalker::DiscWalker(const SampleLevels& levels) : levels_(levels), list_(std::size_t{kDiscs} * kKept) {
   for (const SampleLevel& l : levels.level) stamp_.emplace_back(l.size(), 0u);
+  for (int d = 0; d < kDiscs; ++d) radius_[static_cast<std::size_t>(d)] = disc_radius(kFirstDisc + d);
+}
+
+DiscWalker::Place DiscWalker::place(Index c, int code) const {
+  Place p;
+  p.radius = radius_[static_cast<std::size_t>(code - kFirstDisc)];
+  const Real spacing = levels_.level[0].spacing[c];
+  p.level = levels_.level_for(p.radius, spacing);
+  p.cell = std::max(SampleLevels::cell(p.level, spacing), Real(1e-12));
+  const std::size_t last = std::min(p.level + 1, levels_.level.size() - 1);
+  p.shared = c;
+  for (std::size_t l = 1; l <= last; ++l) p.shared = levels_.level[l].parent[p.shared];
+  return p;
 }
 
 DiscWalker::Samples DiscWalker::around(Index c, int code) {
-  const Real radius = disc_radius(code), spacing = levels_.level[0].spacing[c];
-  const std::size_t level = levels_.level_for(radius, spacing);
-  const Real cell = std::max(SampleLevels::cell(level, spacing), Real(1e-12));
-  const bool above = level + 1 < levels_.level.size();
-  Index first = c;
-  for (std::size_t l = 1; l <= level; ++l) first = levels_.level[l].parent[first];
-  const Index shared = above ? levels_.level[level + 1].parent[first] : first;
-  List& list = list_[static_cast<std::size_t>(code - kFirstDisc) * kKept + shared % kKept];
-  if (list.around != shared || list.level != level) {
-    list.around = shared;
-    list.level = level;
-    const SampleLevel& of = levels_.level[level + above];
-    if (above) first = of.member.row(shared)[0];
+  const Place at = place(c, code);
+  const bool above = at.level + 1 < levels_.level.size();
+  List& list = list_[static_cast<std::size_t>(code - kFirstDisc) * kKept + at.shared % kKept];
+  if (list.around != at.shared || list.level != at.level) {
+    list.around = at.shared;
+    list.level = at.level;
+    const SampleLevel& of = levels_.level[at.level + above];
+    const Index first = above ? of.member.row(at.shared)[0] : at.shared;
     // Points below a cluster lie up to about one of its cells from its centre, and the ramp adds half a sample's.
-    const Real own = SampleLevels::cell(level + above, of.spacing[shared]);
-    walk(list, first, of.centre[shared], radius + (above ? 1.4 : 1.75) * own);
+    const Real own = SampleLevels::cell(at.level + above, of.spacing[at.shared]);
+    walk(list, first, of.centre[at.shared], at.radius + (above ? 1.4 : 1.75) * own);
   }
-  return {level, list.id, cell};
+  return {at.level, list.id, at.cell};
 }
 
 void DiscWalker::walk(List& list, Index first, const Vec3& centre, Real reach) {

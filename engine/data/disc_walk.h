@@ -1,6 +1,7 @@
 // The samples of a disc: clusters of one level, connected to a start inside a ball.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,6 +15,16 @@ class DiscWalker {
  public:
   // The levels must outlive the walker.
   explicit DiscWalker(const SampleLevels& levels);
+
+  // Where the samples for discs of one scale around the points of a cluster of level 0 come from.
+  struct Place {
+    std::size_t level = 0;  // of the samples
+    Index shared = kNone;   // cluster that has the list, of the level above where there is one
+    Real radius = 0, cell = 0;
+    bool same_list(const Place& o) const { return level == o.level && shared == o.shared; }
+  };
+  // Requires: is_disc(code).
+  Place place(Index c, int code) const;
 
   struct Samples {
     std::size_t level;          // which level they belong to
@@ -38,6 +49,7 @@ class DiscWalker {
   std::vector<std::vector<std::uint32_t>> stamp_;
   std::uint32_t epoch_ = 0;
   std::vector<List> list_;  // kKept a code, by cluster
+  std::array<Real, kDiscs> radius_{};
 };
 
 // Share of a sample at distance d in a disc: 1 inside, 0 outside, linear over one cell, so that neighbours see nearly

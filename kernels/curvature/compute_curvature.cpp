@@ -1,18 +1,21 @@
 #include "kernels/curvature/compute_curvature.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 
 #include "engine/parallel/for_each.h"
 #include "engine/parallel/scratch_pool.h"
+#include "kernels/curvature/curvature_lanes.h"
+#include "kernels/curvature/disc_fitter.h"
 #include "kernels/curvature/extremality.h"
+#include "kernels/curvature/group_fitter.h"
 #include "kernels/curvature/principal_curvature.h"
 
 namespace intarsia::kernels {
 
 namespace {
 
-struct RingScratch {
+struct OneFitter {
   RingWalker walker;
   PointBatch batch;
 };
@@ -40,54 +43,104 @@ void store(std::size_t v, const Frame& frame, const VertexFit& fit, const Curvat
   out.direction_ok[v] = valid && directions_defined(k, fit.radius, o.anisotropy, o.flat_turn);
 }
 
-bool has_normal(const Vec3& n) { return n.squaredNorm() > 0.5; }
+// One lane of a pack, with what all lanes share.
+struct LaneResult {
+  const LaneFrames& frames;
+  const LaneFits& fits;
+  const LaneCurvatures& curvatures;
+};
 
+void store(Index v, std::size_t l, const LaneResult& r, std::uint8_t ring, const CurvatureOptions& o,
+           CurvatureFields& out) {
+  const LaneCurvatures& k = r.curvatures;
+  out.kmax[v] = k.kmax[l], out.kmin[v] = k.kmin[l];
+  out.tmax.x[v] = k.tmax_x[l], out.tmax.y[v] = k.tmax_y[l], out.tmax.z[v] = k.tmax_z[l];
+  out.tmin.x[v] = k.tmin_x[l], out.tmin.y[v] = k.tmin_y[l], out.tmin.z[v] = k.tmin_z[l];
+  out.emax[v] = k.emax[l], out.emin[v] = k.emin[l];
+  out.radius[v] = r.fits.radius[l];
+  out.ring[v] = ring;
+  out.status[v] = FitStatus::full;
+  PrincipalCurvature principal;
+  principal.kmax = k.kmax[l], principal.kmin = k.kmin[l];
+  out.direction_ok[v] = directions_defined(principal, r.fits.radius[l], o.anisotropy, o.flat_turn);
+}
+
+// The fit of one vertex, where lanes have no answer.
+void fit_alone_in_rings(const MeshView& mesh, Index v, int ring, const CurvatureOptions& o, OneFitter& one,
+                        CurvatureFields& out) {
+  const Vec3 n = out.normal[v];
+  if (!has_normal(n)) {
+    store(v, Frame(Vec3::UnitZ()), VertexFit{}, o, out);
+    return;
+  }
+  const Frame frame(n);
+  store(v, frame, fit_rings(mesh, out.normal, v, frame, ring, 7, o.fit, one.walker, one.batch), o, out);
+}
+
+template <class Alone>
 void fit_in_rings(const Work& work, const MeshView& mesh, std::span<const std::uint8_t> fit_ring, bool with_discs,
-                  std::span<const std::uint8_t> barrier, const CurvatureOptions& o, CurvatureFields& out) {
-  auto pool = make_scratch_pool([&] { return RingScratch{RingWalker(mesh, barrier), {}}; });
-  const Vec3View normal = out.normal;
+                  std::span<const std::uint8_t> barrier, const CurvatureOptions& o, Alone& alone,
+                  CurvatureFields& out) {
+  auto fitters = make_scratch_pool([&] { return GroupFitter(mesh, barrier); });
   for_each_block(work, Cost::medium, mesh.vertex_count(), [&](std::size_t begin, std::size_t end, std::size_t) {
-    const auto scratch = pool.borrow();
-    for (std::size_t v = begin; v < end; ++v) {
-      if (with_discs && is_disc(fit_ring[v])) continue;
-      const int ring = std::min<int>(fit_ring[v], kRings);
-      const Vec3 n = normal[v];
-      if (!has_normal(n)) {
-        store(v, Frame(Vec3::UnitZ()), VertexFit{}, o, out);
-        continue;
+    const auto fitter = fitters.borrow();
+    LaneCurvatures curvatures;
+    for (std::size_t first = begin; first < end; first += GroupFitter::kGroup) {
+      std::array<std::uint8_t, GroupFitter::kGroup> ring;
+      const std::size_t count = std::min<std::size_t>(GroupFitter::kGroup, end - first);
+      for (std::size_t b = 0; b < count; ++b) {
+        const std::uint8_t r = fit_ring[first + b];
+        ring[b] = with_discs && is_disc(r) ? 0 : std::min<std::uint8_t>(r, kRings);
       }
-      const Frame frame(n);
-      store(v, frame,
-            fit_rings(mesh, normal, static_cast<Index>(v), frame, ring, 7, o.fit, scratch->walker, scratch->batch), o,
-            out);
+      fitter->fit(static_cast<Index>(first), std::span(ring).first(count), out.normal, 7, o.fit,
+                  [&](const GroupFitter::Pack& pack) {
+                    if (pack.fits.solved) lane_curvatures(instruction_set(), pack.frames, pack.fits, curvatures);
+                    for (std::size_t l = 0; l < kLanes; ++l) {
+                      if ((pack.active >> l & 1) == 0) continue;
+                      const Index v = pack.first + static_cast<Index>(l);
+                      if (pack.fits.solved >> l & 1)
+                        store(v, l, {pack.frames, pack.fits, curvatures}, pack.depth[l], o, out);
+                      else
+                        fit_alone_in_rings(mesh, v, ring[v - first], o, *alone.borrow(), out);
+                    }
+                  });
     }
   });
 }
 
-void fit_in_discs(const Work& work, const MeshView& mesh, std::span<const std::uint8_t> fit_ring,
-                  const SampleLevels& levels, std::span<const std::uint8_t> barrier, const CurvatureOptions& o,
-                  CurvatureFields& out) {
+// The disc of one vertex, or rings where that fails too.
+void fit_alone_in_disc(const MeshView& mesh, const SampleLevels& levels, std::span<const Vec3Array> sample_normal,
+                       Index v, Index c, int code, const CurvatureOptions& o, DiscScratch& disc, OneFitter& one,
+                       CurvatureFields& out) {
   const Vec3View normal = out.normal;
-  const std::vector<Vec3Array> sample_normal = sample_normals(work, mesh, levels, normal);
-  const SampleLevel& base = levels.level[0];
+  const Frame frame(has_normal(normal[v]) ? normal[v] : Vec3(Vec3::UnitZ()));
+  VertexFit fit = fit_disc(mesh, levels, sample_normal, v, c, code, frame, o.fit, disc.walker, disc.batch);
+  if (fit.status == FitStatus::invalid && has_normal(normal[v]))
+    fit = fit_rings(mesh, normal, v, frame, kRings, 7, o.fit, one.walker, one.batch);
+  store(v, frame, fit, o, out);
+}
+
+template <class Alone>
+void fit_in_discs(const Work& work, const MeshView& mesh, std::span<const std::uint8_t> fit_ring,
+                  const SampleLevels& levels, const CurvatureOptions& o, Alone& alone, CurvatureFields& out) {
+  const std::vector<Vec3Array> sample_normal = sample_normals(work, mesh, levels, out.normal);
+  const SampleLevel& start = levels.level[DiscFitter::start_level(levels)];
+  auto fitters = make_scratch_pool([&] { return DiscFitter(mesh, levels, sample_normal); });
   auto discs = make_scratch_pool([&] { return DiscScratch{DiscWalker(levels), {}}; });
-  auto rings = make_scratch_pool([&] { return RingScratch{RingWalker(mesh, barrier), {}}; });
-  for_each_block(work, Cost::medium, base.size(), [&](std::size_t begin, std::size_t end, std::size_t) {
-    const auto disc = discs.borrow();
-    for (std::size_t i = begin; i < end; ++i) {
-      const Index c = static_cast<Index>(i);
-      for (Index v : base.member.row(c)) {
-        if (!is_disc(fit_ring[v])) continue;
-        const Frame frame(has_normal(normal[v]) ? normal[v] : Vec3(Vec3::UnitZ()));
-        VertexFit fit =
-            fit_disc(mesh, levels, sample_normal, v, c, fit_ring[v], frame, o.fit, disc->walker, disc->batch);
-        if (fit.status == FitStatus::invalid && has_normal(normal[v])) {
-          const auto ring = rings.borrow();
-          fit = fit_rings(mesh, normal, v, frame, kRings, 7, o.fit, ring->walker, ring->batch);
-        }
-        store(v, frame, fit, o, out);
-      }
-    }
+  for_each_block(work, Cost::heavy, start.size(), [&](std::size_t begin, std::size_t end, std::size_t) {
+    const auto fitter = fitters.borrow();
+    LaneCurvatures curvatures;
+    for (std::size_t c = begin; c < end; ++c)
+      fitter->fit(static_cast<Index>(c), out.normal, fit_ring, o.fit, [&](const DiscFitter::Pack& pack) {
+        if (pack.fits.solved) lane_curvatures(instruction_set(), pack.frames, pack.fits, curvatures);
+        for (std::size_t l = 0; l < pack.size; ++l)
+          if (pack.fits.solved >> l & 1)
+            store(pack.vertex[l], l, {pack.frames, pack.fits, curvatures}, static_cast<std::uint8_t>(pack.code), o,
+                  out);
+          else
+            fit_alone_in_disc(mesh, levels, sample_normal, pack.vertex[l], pack.cluster[l], pack.code, o,
+                              *discs.borrow(), *alone.borrow(), out);
+      });
   });
 }
 
@@ -104,8 +157,10 @@ CurvatureFields compute_curvature(const Work& work, const MeshView& mesh, const 
   } else {
     for_each(work, Cost::light, n, [&](std::size_t v) { out.normal.set(v, vertex_normal[v]); });
   }
-  fit_in_rings(work, mesh, fit_ring, !levels.level.empty(), barrier, options, out);
-  if (!levels.level.empty()) fit_in_discs(work, mesh, fit_ring, levels, barrier, options, out);
+  auto alone = make_scratch_pool([&] { return OneFitter{RingWalker(mesh, barrier), {}}; });
+  const bool with_discs = !levels.level.empty();
+  fit_in_rings(work, mesh, fit_ring, with_discs, barrier, options, alone, out);
+  if (with_discs) fit_in_discs(work, mesh, fit_ring, levels, options, alone, out);
   return out;
 }
 

@@ -3,61 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/curvature/cubic_rows.h"
+
 namespace intarsia::kernels {
 
 namespace {
-
-// One factor * x^i y^j; factor 0 where a row does not know the unknown.
-struct Monomial {
-  Real factor;
-  std::size_t i, j;
-};
-constexpr std::size_t place(std::size_t i, std::size_t j) { return (i + j) * (i + j + 1) / 2 + j; }
-
-// Height, slope in x and slope in y of every unknown.
-constexpr Monomial kNothing{0, 0, 0};
-constexpr std::array<std::array<Monomial, kCubicTerms>, 3> kRow{{
-    {{{0.5, 2, 0},
-      {1, 1, 1},
-      {0.5, 0, 2},
-      {1.0 / 6, 3, 0},
-      {0.5, 2, 1},
-      {0.5, 1, 2},
-      {1.0 / 6, 0, 3},
-      {1, 1, 0},
-      {1, 0, 1},
-      {1, 0, 0}}},
-    {{{1, 1, 0}, {1, 0, 1}, kNothing, {0.5, 2, 0}, {1, 1, 1}, {0.5, 0, 2}, kNothing, {1, 0, 0}, kNothing, kNothing}},
-    {{kNothing, {1, 1, 0}, {1, 0, 1}, kNothing, {0.5, 2, 0}, {1, 1, 1}, {0.5, 0, 2}, kNothing, {1, 0, 0}, kNothing}},
-}};
-
-// Entry (r, c), c <= r, of the normal matrix as a combination of three moments; and of the right-hand side.
-struct Entry {
-  std::array<Real, 3> factor;
-  std::array<std::size_t, 3> moment;
-};
-struct Table {
-  std::array<Entry, kCubicTerms*(kCubicTerms + 1) / 2> matrix;
-  std::array<Entry, kCubicTerms> right;
-};
-constexpr Table make_table() {
-  Table t{};
-  for (std::size_t r = 0, at = 0; r < kCubicTerms; ++r) {
-    for (std::size_t c = 0; c <= r; ++c, ++at)
-      for (std::size_t row = 0; row < 3; ++row) {
-        const Monomial &m = kRow[row][r], &n = kRow[row][c];
-        t.matrix[at].factor[row] = m.factor * n.factor;
-        t.matrix[at].moment[row] = m.factor * n.factor == 0 ? 0 : place(m.i + n.i, m.j + n.j);
-      }
-    for (std::size_t row = 0; row < 3; ++row) {
-      const Monomial& m = kRow[row][r];
-      t.right[r].factor[row] = m.factor;
-      t.right[r].moment[row] = m.factor == 0 ? 0 : place(m.i, m.j);
-    }
-  }
-  return t;
-}
-constexpr Table kTable = make_table();
 
 // powers[d] = unit^-d.
 template <std::size_t Size>
@@ -82,11 +32,11 @@ bool solve(const CubicSums& sums, Real unit, Real least_pivot, std::array<Real, 
   Real a[N][N];
   for (std::size_t r = 0, at = 0; r < N; ++r) {
     for (std::size_t c = 0; c <= r; ++c, ++at) {
-      const Entry& e = kTable.matrix[at];
+      const NormalEntry& e = kNormalTable.matrix[at];
       a[r][c] =
           e.factor[0] * moment[e.moment[0]] + e.factor[1] * moment[e.moment[1]] + e.factor[2] * moment[e.moment[2]];
     }
-    const Entry& e = kTable.right[r];
+    const NormalEntry& e = kNormalTable.right[r];
     x[r] = e.factor[0] * height[e.moment[0]] + e.factor[1] * slope_x[e.moment[1]] + e.factor[2] * slope_y[e.moment[2]];
   }
 

@@ -56,7 +56,7 @@ struct PointBatch {
 enum class Rows : std::uint8_t {
   slopes,  // -a/c, -b/c and z, as in the paper. On a sphere they grow faster than any cubic.
   round,   // -a, -b and z (1 + c)/2: exactly linear and quadratic on spheres and cylinders, and equal to the paper's up
-          // to the order that curvature and extremality at the centre are made of
+           // to the order that curvature and extremality at the centre are made of
 };
 
 // Adds the batch, seen in the frame (u, v, n), to the sums. Points with c < gate are left out. Eight partial sums are

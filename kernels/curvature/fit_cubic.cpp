@@ -1,10 +1,13 @@
 #include "kernels/curvature/fit_cubic.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/parallel/for_each.h"
 #include "engine/parallel/scratch_pool.h"
+#include "kernels/curvature/curvature_lanes.h"
+#include "kernels/curvature/group_fitter.h"
 
 namespace intarsia::kernels {
 
@@ -114,24 +117,54 @@ VertexFit fit_disc(const MeshView& mesh, const SampleLevels& levels, std::span<c
   return fit;
 }
 
+namespace {
+
+// The normal of a fit with a free tangent plane, or the old one.
+Vec3 refined(const Frame& frame, const VertexFit& fit) {
+  const auto [g1, g2] = fit.cubic.gradient;
+  const bool usable = fit.status == FitStatus::full || fit.status == FitStatus::ring_grown;
+  if (!usable || !(g1 * g1 + g2 * g2 < 1)) return frame.n;
+  return (frame.n - g1 * frame.u - g2 * frame.v).normalized();
+}
+
+}  // namespace
+
 void refine_normals(const Work& work, const MeshView& mesh, const Vec3View& normal_in,
                     std::span<const std::uint8_t> fit_ring, std::span<const std::uint8_t> barrier,
                     const FitOptions& options, Vec3Array& normal_out) {
   normal_out.resize(mesh.vertex_count());
-  auto pool = make_scratch_pool([&] { return Scratch{RingWalker(mesh, barrier), {}}; });
+  auto fitters = make_scratch_pool([&] { return GroupFitter(mesh, barrier); });
+  auto alone = make_scratch_pool([&] { return Scratch{RingWalker(mesh, barrier), {}}; });
   for_each_block(work, Cost::medium, mesh.vertex_count(), [&](std::size_t begin, std::size_t end, std::size_t) {
-    const auto scratch = pool.borrow();
-    for (std::size_t v = begin; v < end; ++v) {
-      const Vec3 old = normal_in[v];
-      normal_out.set(v, old);
-      if (!(old.squaredNorm() > 0.5)) continue;
-      const Frame frame(old);
-      const int ring = is_disc(fit_ring[v]) ? options.refine_ring : fit_ring[v];
-      const VertexFit fit =
-          fit_rings(mesh, normal_in, static_cast<Index>(v), frame, ring, 9, options, scratch->walker, scratch->batch);
-      const auto [g1, g2] = fit.cubic.gradient;
-      if (fit.status == FitStatus::full || fit.status == FitStatus::ring_grown)
-        if (g1 * g1 + g2 * g2 < 1) normal_out.set(v, (frame.n - g1 * frame.u - g2 * frame.v).normalized());
+    const auto fitter = fitters.borrow();
+    LaneNormals normals;
+    for (std::size_t first = begin; first < end; first += GroupFitter::kGroup) {
+      std::array<std::uint8_t, GroupFitter::kGroup> ring;
+      const std::size_t count = std::min<std::size_t>(GroupFitter::kGroup, end - first);
+      for (std::size_t b = 0; b < count; ++b)
+        ring[b] = is_disc(fit_ring[first + b]) ? static_cast<std::uint8_t>(options.refine_ring) : fit_ring[first + b];
+      fitter->fit(static_cast<Index>(first), std::span(ring).first(count), normal_in, 9, options,
+                  [&](const GroupFitter::Pack& pack) {
+                    if (pack.fits.solved) lane_normals(instruction_set(), pack.frames, pack.fits, normals);
+                    for (std::size_t l = 0; l < kLanes; ++l) {
+                      if ((pack.active >> l & 1) == 0) continue;
+                      const Index v = pack.first + static_cast<Index>(l);
+                      const Vec3 old = normal_in[v];
+                      const Real g1 = pack.fits.gradient[0][l], g2 = pack.fits.gradient[1][l];
+                      if ((pack.fits.solved >> l & 1) == 0) {
+                        if (!has_normal(old)) {
+                          normal_out.set(v, old);
+                          continue;
+                        }
+                        const auto scratch = alone.borrow();
+                        const Frame frame(old);
+                        normal_out.set(v, refined(frame, fit_rings(mesh, normal_in, v, frame, ring[v - first], 9,
+                                                                   options, scratch->walker, scratch->batch)));
+                      } else {
+                        normal_out.set(v, g1 * g1 + g2 * g2 < 1 ? Vec3(normals.x[l], normals.y[l], normals.z[l]) : old);
+                      }
+                    }
+                  });
     }
   });
 }
