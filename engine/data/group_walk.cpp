@@ -14,6 +14,12 @@ void make_room(std::vector<T>& list, std::size_t size) {
   if (list.size() < size) list.resize(2 * size);
 }
 
+// Keeps the compiler from making a branch of what is computed from x.
+inline std::uint32_t hidden(std::uint32_t x) {
+  asm("" : "+r"(x));
+  return x;
+}
+
 }  // namespace
 
 GroupWalker::GroupWalker(const MeshView& mesh, std::span<const std::uint8_t> barrier)
@@ -44,40 +50,38 @@ void GroupWalker::look_around(Index begin, Index end) {
   const Index* item = mesh_.vertex_vertices.item.data();
   std::uint32_t* stamp = vertex_stamp_.data();
   const std::uint32_t base = base_;
+  const bool barred = add && !stop_.empty();
   Index size = size_;
   make_room(queue_, size + kRow * (end - begin) + kRow);
   make_room(near_, kRow * std::size_t{end});
+  Index* queue = queue_.data();
   for (Index i = begin; i < end; ++i) {
-    const Index v = queue_[i];
+    const Index v = queue[i];
     const Index* row = item + offset[v];
     const Index valence = offset[v + 1] - offset[v];
     Index* place = near_.data() + kRow * std::size_t{i};
-    if (valence == 0) {
+    if (valence == 0 || (barred && i >= count_ && stop_[v])) {
       std::fill(place, place + kRow, i);
       continue;
     }
-    const bool barred = add && !stop_.empty() && i >= count_ && stop_[v];
-    Index* queue = queue_.data();
-    const Index last = valence - 1;
     const auto meet = [&](Index w) {
       const std::uint32_t x = stamp[w] - base;
       if constexpr (!add) return std::min(x, size);
-      const std::uint32_t fresh = x >> 31;
-      const std::uint32_t at = fresh ? size : x;
+      const std::uint32_t met = hidden((x >> 31) - 1);  // all ones, or 0
+      const std::uint32_t at = (x & met) | (size & ~met);
       stamp[w] = base + at;
       queue[size] = w;
-      size += fresh;
+      size += met + 1;
       return at;
     };
-    if (barred) continue;
+    const Index last = valence - 1;
     for (Index j = 0; j < kRow; ++j) place[j] = meet(row[std::min(j, last)]);
-    if (valence > kRow) {
-      if (add) make_room(queue_, size + valence + kRow * std::size_t{end - i});
-      queue = queue_.data();
-      const Index from = static_cast<Index>(far_.size());
-      for (Index j = kRow; j < valence; ++j) far_.push_back(meet(row[j]));
-      long_rows_.push_back({i, from, static_cast<Index>(far_.size())});
-    }
+    if (valence <= kRow) continue;
+    if (add) make_room(queue_, size + valence + kRow * std::size_t{end - i});
+    queue = queue_.data();
+    const Index from = static_cast<Index>(far_.size());
+    for (Index j = kRow; j < valence; ++j) far_.push_back(meet(row[j]));
+    long_rows_.push_back({i, from, static_cast<Index>(far_.size())});
   }
   size_ = size;
 }

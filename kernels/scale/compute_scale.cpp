@@ -7,6 +7,7 @@
 #include "engine/parallel/for_each.h"
 #include "engine/parallel/reduce.h"
 #include "engine/parallel/scratch_pool.h"
+#include "kernels/scale/group_voting.h"
 #include "kernels/scale/sample_levels.h"
 #include "kernels/scale/voting_tensor.h"
 
@@ -18,33 +19,46 @@ using Codes = std::vector<std::uint8_t>;
 
 constexpr Real kSixRings = 5.0;  // radius of six rings in spacings, a little short: the first disc overlaps them
 
-struct Scratch {
-  explicit Scratch(const MeshView& mesh) : walker(mesh) {}
+// Where neighbourhoods are too odd to be walked together, one vertex at a time.
+struct Alone {
+  explicit Alone(const MeshView& mesh) : walker(mesh) {}
   RingWalker walker;
   VotingScratch voting;
 };
 
 // Variation, rule and ring to fit, without looking at neighbours. flat[v] = 1 where the six rings see a plane and
 // nothing beside it: a vertex near a crease may be flat by the rule although its outer rings reach over the crease.
-void choose_rings(const Work& work, const MeshView& mesh, std::span<const FaceRecord> faces, const ScaleOptions& o,
+void choose_rings(const Work& work, const MeshView& mesh, std::span<const VotingFace> faces, const ScaleOptions& o,
                   ScaleFields& out, Codes& fit, Codes& flat) {
-  auto pool = make_scratch_pool([&] { return Scratch(mesh); });
+  constexpr std::size_t kGroup = GroupWalker::kGroup;
+  static_assert(static_cast<std::size_t>(Cost::medium) % kGroup == 0, "blocks must not cut groups");
+  auto pool = make_scratch_pool([&] { return GroupVoting(mesh, faces, o.fold_guard); });
+  auto single = make_scratch_pool([&] { return Alone(mesh); });
   SelectOptions closest = o.select;
   closest.flat = 0;  // every ring counts as reached: the bent case
   for_each_block(work, Cost::medium, mesh.vertex_count(), [&](std::size_t begin, std::size_t end, std::size_t) {
-    const auto scratch = pool.borrow();
-    for (std::size_t v = begin; v < end; ++v) {
-      const Variation variation =
-          variation_of(mesh, faces, static_cast<Index>(v), o.fold_guard, scratch->walker, scratch->voting);
-      const RingValues& read = o.fold_guard ? variation.folded : variation.omega;
-      const Choice choice = choose_ring(read, o.select);
-      const int ring =
-          choice.bend == Bend::between && o.closest_between ? choose_ring(read, closest).ring : choice.ring;
-      out.scale[v] = static_cast<std::uint8_t>(choice.ring);
-      fit[v] = static_cast<std::uint8_t>(std::max(ring, o.select.least_fit));
-      flat[v] = choice.bend == Bend::flat && read[kRings - 1] < o.select.bent;
-      if (o.keep_variation)
-        for (std::size_t k = 0; k < kRings; ++k) out.omega[k][v] = variation.omega[k];
+    const auto voting = pool.borrow();
+    std::array<Variation, kGroup> variations;
+    for (std::size_t first = begin; first < end; first += kGroup) {
+      const std::span<Variation> group(variations.data(), std::min(kGroup, end - first));
+      if (!voting->run(static_cast<Index>(first), group)) {
+        const auto alone = single.borrow();
+        for (std::size_t b = 0; b < group.size(); ++b)
+          group[b] = variation_of(mesh, static_cast<Index>(first + b), o.fold_guard, alone->walker, alone->voting);
+      }
+      for (std::size_t b = 0; b < group.size(); ++b) {
+        const std::size_t v = first + b;
+        const Variation& variation = group[b];
+        const RingValues& read = o.fold_guard ? variation.folded : variation.omega;
+        const Choice choice = choose_ring(read, o.select);
+        const int ring =
+            choice.bend == Bend::between && o.closest_between ? choose_ring(read, closest).ring : choice.ring;
+        out.scale[v] = static_cast<std::uint8_t>(choice.ring);
+        fit[v] = static_cast<std::uint8_t>(std::max(ring, o.select.least_fit));
+        flat[v] = choice.bend == Bend::flat && read[kRings - 1] < o.select.bent;
+        if (o.keep_variation)
+          for (std::size_t k = 0; k < kRings; ++k) out.omega[k][v] = variation.omega[k];
+      }
     }
   });
 }
@@ -76,7 +90,7 @@ std::uint8_t flat_fit(Real spacing, const ScaleOptions& o) {
 }
 
 // Discs for flat vertices; vertices that six rings call bent keep their rings.
-void choose_discs(const Work& work, const MeshView& mesh, std::span<const FaceRecord> faces, const ScaleOptions& o,
+void choose_discs(const Work& work, const MeshView& mesh, std::span<const VotingFace> faces, const ScaleOptions& o,
                   const Codes& flat, ScaleFields& out) {
   LevelBuild build = build_sample_levels(work, mesh, faces, o.largest_disc);
   if (build.levels.level.empty()) return;
@@ -111,7 +125,7 @@ ScaleFields compute_scale(const Work& work, const MeshView& mesh, const ScaleOpt
   out.fit_ring.resize(n);
   if (options.keep_variation)
     for (auto& o : out.omega) o.resize(n);
-  const std::vector<FaceRecord> faces = face_records(work, mesh);
+  const std::vector<VotingFace> faces = voting_faces(work, mesh);
   Codes fit(n), flat(n);
   choose_rings(work, mesh, faces, options, out, fit, flat);
   if (options.select.regularise)

@@ -151,23 +151,23 @@ struct Share {
   }
 };
 
-void add_vertex(const MeshView& mesh, std::span<const FaceRecord> faces, Index v, Share& share) {
+void add_vertex(const MeshView& mesh, std::span<const VotingFace> faces, Index v, Share& share) {
   Tensor t{};
   Real area = 0;
   for (Index f : mesh.vertex_faces.row(v)) {
-    const FaceRecord& r = faces[f];
-    const Real a = r.area / 3;
-    const Vec3& n = r.normal;
+    const VotingFace& r = faces[f];
+    const Real a = Real{r.area} / 3;
+    const Real x = r.normal[0], y = r.normal[1], z = r.normal[2];
     area += a;
-    t[0] += a * n.x() * n.x(), t[1] += a * n.x() * n.y(), t[2] += a * n.x() * n.z();
-    t[3] += a * n.y() * n.y(), t[4] += a * n.y() * n.z(), t[5] += a * n.z() * n.z();
+    t[0] += a * x * x, t[1] += a * x * y, t[2] += a * x * z;
+    t[3] += a * y * y, t[4] += a * y * z, t[5] += a * z * z;
   }
   share.add(mesh.point(v), area, t);
 }
 
 }  // namespace
 
-LevelBuild build_sample_levels(const Work& work, const MeshView& mesh, std::span<const FaceRecord> faces,
+LevelBuild build_sample_levels(const Work& work, const MeshView& mesh, std::span<const VotingFace> faces,
                                Real max_radius) {
   LevelBuild build;
   CsrView graph = mesh.vertex_vertices;

@@ -10,6 +10,7 @@
 #include "engine/data/mesh.h"
 #include "engine/data/sample_levels.h"
 #include "engine/parallel/work.h"
+#include "kernels/scale/voting_faces.h"
 #include "kernels/scale/voting_tensor.h"
 
 namespace intarsia::kernels {
@@ -20,7 +21,7 @@ struct LevelBuild {
 };
 
 // Levels for discs up to `max_radius`; fewer where a level would not shrink the one below.
-LevelBuild build_sample_levels(const Work& work, const MeshView& mesh, std::span<const FaceRecord> faces,
+LevelBuild build_sample_levels(const Work& work, const MeshView& mesh, std::span<const VotingFace> faces,
                                Real max_radius);
 
 // Surface variation in the disc `code` around the centre of cluster c of level 0: Eq. 6 over the tensors of the

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/parallel/for_each.h"
-
 namespace intarsia::kernels {
 
 namespace {
@@ -46,18 +44,16 @@ Real first_moment_variation(const VotingScratch& s, std::size_t count) {
 
 }  // namespace
 
-std::vector<FaceRecord> face_records(const Work& work, const MeshView& mesh) {
-  std::vector<FaceRecord> record(mesh.face_count());
-  for_each(work, Cost::light, record.size(), [&](std::size_t f) {
-    const auto [i, j, k] = mesh.face(static_cast<Index>(f));
-    const Vec3 a = mesh.point(i), b = mesh.point(j), c = mesh.point(k);
-    const Vec3 cross = (b - a).cross(c - a);
-    const Real twice = cross.norm();
-    const bool degenerate = !(0.5 * twice > kDegenerateArea);
-    record[f].centroid = (a + b + c) / 3;
-    record[f].normal = degenerate ? Vec3(Vec3::Zero()) : Vec3(cross / twice);
-    record[f].area = degenerate ? 0 : 0.5 * twice;
-  });
+FaceRecord face_record(const MeshView& mesh, Index f) {
+  const auto [i, j, k] = mesh.face(f);
+  const Vec3 a = mesh.point(i), b = mesh.point(j), c = mesh.point(k);
+  const Vec3 cross = (b - a).cross(c - a);
+  const Real twice = cross.norm();
+  const bool degenerate = !(0.5 * twice > kDegenerateArea);
+  FaceRecord record;
+  record.centroid = (a + b + c) / 3;
+  record.normal = degenerate ? Vec3(Vec3::Zero()) : Vec3(cross / twice);
+  record.area = degenerate ? 0 : 0.5 * twice;
   return record;
 }
 
@@ -77,8 +73,7 @@ Real variation_of_tensor(const Tensor& t) {
   return std::clamp((trace - largest) / largest, Real(0), Real(2));
 }
 
-Variation variation_of(const MeshView& mesh, std::span<const FaceRecord> faces, Index v, bool fold_guard,
-                       RingWalker& walker, VotingScratch& s) {
+Variation variation_of(const MeshView& mesh, Index v, bool fold_guard, RingWalker& walker, VotingScratch& s) {
   Variation out;
   out.omega.fill(0);
   out.folded.fill(0);
@@ -97,7 +92,7 @@ Variation variation_of(const MeshView& mesh, std::span<const FaceRecord> faces, 
   for (int k = 1; k <= kRings; ++k) {
     const std::size_t listed = walker.faces(k).size();
     for (std::size_t i = k == 1 ? 0 : walker.faces(k - 1).size(); i < listed; ++i) {
-      const FaceRecord& f = faces[around[i]];
+      const FaceRecord f = face_record(mesh, around[i]);
       if (f.area <= 0) continue;
       const Real squared = (f.centroid - centre).squaredNorm();
       reach = std::max(reach, squared);

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
 #include "engine/base/lanes.h"
@@ -17,14 +16,14 @@
 
 namespace intarsia::kernels {
 
-// What the tensor needs of a face, side by side: faces are gathered, not streamed.
-struct alignas(64) FaceRecord {
+// What the tensor needs of a face.
+struct FaceRecord {
   Vec3 centroid;
   Vec3 normal;  // unit; zero where area is 0
   Real area;    // 0 for degenerate faces (at most 1e-14 of the squared diagonal): they vote for nothing
 };
 
-std::vector<FaceRecord> face_records(const Work& work, const MeshView& mesh);
+FaceRecord face_record(const MeshView& mesh, Index f);
 
 using Tensor = std::array<Real, 6>;  // symmetric: xx, xy, xz, yy, yz, zz
 using RingValues = std::array<Real, kRings>;
@@ -41,10 +40,9 @@ struct VotingScratch {
   LaneArray distance, weight, area, nx, ny, nz;
 };
 
-// The variation of vertex v in rings 1 .. 6.
-// Ensures: no NaN; a vertex without faces gets zeros. Walks `walker`.
-Variation variation_of(const MeshView& mesh, std::span<const FaceRecord> faces, Index v, bool fold_guard,
-                       RingWalker& walker, VotingScratch& scratch);
+// The variation of vertex v in rings 1 .. 6: the reference for kernels/scale/group_voting.h, which serves most
+// vertices, and what serves the rest. Ensures: no NaN; a vertex without faces gets zeros. Walks `walker`.
+Variation variation_of(const MeshView& mesh, Index v, bool fold_guard, RingWalker& walker, VotingScratch& scratch);
 
 // (trace - l1) / l1; 0 if the trace is not positive.
 Real variation_of_tensor(const Tensor& tensor);

@@ -88,7 +88,7 @@ TEST_CASE("discs change nothing for vertices that six rings call bent") {
 
 TEST_CASE("sample levels partition the surface into small connected clusters") {
   const TestSurface s = make_surface(RoundedCube{30, 4}.mesh(0.25, 2));
-  const LevelBuild build = build_sample_levels(Work{}, s.mesh, face_records(Work{}, s.mesh), 0.15);
+  const LevelBuild build = build_sample_levels(Work{}, s.mesh, voting_faces(Work{}, s.mesh), 0.15);
   REQUIRE(build.levels.level.size() >= 2);
   Real surface_area = 0;
   for (Real a : s.faces.area) surface_area += a;
@@ -128,7 +128,7 @@ TEST_CASE("disc variation follows the shape, not the mesh") {
     const Index n = static_cast<Index>(1.2 / h);
     const Mesh m = raw_mesh(
         row_grid(n, n, h, [](Real x, Real y) { return Vec3(0.4 * std::sin(x / 0.4), y, 0.4 * std::cos(x / 0.4)); }));
-    const LevelBuild build = build_sample_levels(Work{}, m, face_records(Work{}, m), 0.15);
+    const LevelBuild build = build_sample_levels(Work{}, m, voting_faces(Work{}, m), 0.15);
     DiscWalker walker(build.levels);
     const Index c = build.levels.level[0].parent[nearest_vertex(m, Vec3(0, 0, 0.4))];
     for (int code : {15, 16, 17}) {
@@ -163,6 +163,6 @@ TEST_CASE("degenerate input has scales too") {
   add_face(s, 4, a, b);
   const ScaleFields f = compute_scale(Work{}, raw_mesh(s), keeping());
   for (std::size_t k = 0; k < kRings; ++k)
-    for (Real w : f.omega[k]) CHECK(std::abs(w) < 1e-14);
+    for (Real w : f.omega[k]) CHECK(std::abs(w) < 1e-9);
   for (std::uint8_t k : f.scale) CHECK(k == 1);
 }

@@ -18,7 +18,7 @@ namespace {
 Variation variation_at(const Mesh& m, Index v) {
   RingWalker walker(m);
   VotingScratch scratch;
-  return variation_of(m, face_records(Work{}, m), v, true, walker, scratch);
+  return variation_of(m, v, true, walker, scratch);
 }
 
 Soup crease(Real degrees) {
@@ -111,12 +111,11 @@ TEST_CASE("symmetric creases, on the line and beside it") {
 
 TEST_CASE("spheres and cylinders") {
   const Mesh sphere = raw_mesh(icosphere(4));
-  const auto faces = face_records(Work{}, sphere);
   RingWalker walker(sphere);
   VotingScratch scratch;
   RingValues mean{};
   for (Index v = 0; v < sphere.vertex_count(); ++v) {
-    const Variation at = variation_of(sphere, faces, v, false, walker, scratch);
+    const Variation at = variation_of(sphere, v, false, walker, scratch);
     for (std::size_t k = 0; k < kRings; ++k) mean[k] += at.omega[k] / sphere.vertex_count();
   }
   const RingValues table{.00187, .0076, .0175, .0314, .0501, .0732};
