@@ -44,22 +44,32 @@ struct ProgramResult {
   std::string out, err;
 };
 
+// Starts the program and returns its process; what it prints goes to two files.
+inline pid_t start_program(const char* program, const std::vector<std::string>& arguments, const std::string& out,
+                           const std::string& err) {
+  std::fflush(nullptr);
+  const pid_t child = fork();
+  if (child != 0) return child;
+  std::vector<char*> argv{const_cast<char*>(program)};
+  for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+  argv.push_back(nullptr);
+  if (!std::freopen(out.c_str(), "w", stdout) || !std::freopen(err.c_str(), "w", stderr)) _exit(99);
+  execv(program, argv.data());
+  _exit(98);
+}
+
+// Its exit status, or minus the signal that ended it.
+inline int finish_program(pid_t child) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
 inline ProgramResult run_program(const char* program, const std::vector<std::string>& arguments,
                                  const ProgramFolder& folder) {
   const std::string out = folder / "stdout.txt", err = folder / "stderr.txt";
-  std::fflush(nullptr);
-  const pid_t child = fork();
-  if (child == 0) {
-    std::vector<char*> argv{const_cast<char*>(program)};
-    for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
-    argv.push_back(nullptr);
-    if (!std::freopen(out.c_str(), "w", stdout) || !std::freopen(err.c_str(), "w", stderr)) _exit(99);
-    execv(program, argv.data());
-    _exit(98);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), file_text(out), file_text(err)};
+  const int status = finish_program(start_program(program, arguments, out, err));
+  return {status, file_text(out), file_text(err)};
 }
 
 }  // namespace intarsia::test
