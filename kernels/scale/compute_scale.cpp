@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/data/disc_walk.h"
 #include "engine/parallel/for_each.h"
 #include "engine/parallel/reduce.h"
 #include "engine/parallel/scratch_pool.h"
+#include "kernels/scale/disc_voting.h"
 #include "kernels/scale/group_voting.h"
 #include "kernels/scale/sample_levels.h"
 #include "kernels/scale/voting_tensor.h"
@@ -63,31 +63,95 @@ void choose_rings(const Work& work, const MeshView& mesh, std::span<const Voting
   });
 }
 
-// Disc code of one cluster, or 0 where no disc sees a bend.
-std::uint8_t choose_disc_of(const LevelBuild& build, Index c, const ScaleOptions& o, DiscWalker& walker) {
-  const Real six_rings = kSixRings * build.levels.level[0].spacing[c];
-  int first = kFirstDisc;
-  while (first < kLastDisc && disc_radius(first) < six_rings) ++first;
-  std::array<Real, kDiscs> variation;
-  std::size_t n = 0;
-  for (int code = first; code <= kLastDisc; ++code) {
-    if (disc_radius(code) > o.largest_disc * 1.000001) break;
-    variation[n++] = disc_variation(build, c, code, walker);
-    if (variation[n - 1] >= o.select.bent) break;
+// Disc codes of the clusters of level 0 below one coarse cluster, smaller discs first; a cluster is done with the first
+// that bends.
+class DiscChoice {
+ public:
+  DiscChoice(const LevelBuild& build, const ScaleOptions& options) : build_(build), o_(options), voting_(build) {
+    while (last_ < kLastDisc && disc_radius(last_ + 1) <= o_.largest_disc * 1.000001) ++last_;
   }
-  return static_cast<std::uint8_t>(choose_disc(std::span(variation).first(n), first, o.select));
-}
+  // The level of the coarse clusters; theirs hold about 64 vertices.
+  static std::size_t start_level(const SampleLevels& levels) {
+    return std::min<std::size_t>(levels.level.size() - 1, 2);
+  }
+
+  // take(vertex, code) for every flat vertex below cluster c of the start level; code 0 where no disc sees a bend.
+  template <class Take>
+  void run(Index c, const Codes& flat, const Take& take) {
+    seeker_.clear();
+    collect(start_level(build_.levels), c, flat);
+    for (int code = kFirstDisc; code <= last_; ++code) {
+      open_.clear(), cluster_.clear();
+      for (Seeker& s : seeker_)
+        if (s.first <= code && !s.done) open_.push_back(&s), cluster_.push_back(s.cluster);
+      variation_.resize(open_.size());
+      voting_.run(cluster_, code, variation_);
+      for (std::size_t i = 0; i < open_.size(); ++i) {
+        open_[i]->variation[open_[i]->size++] = variation_[i];
+        open_[i]->done = variation_[i] >= o_.select.bent;
+      }
+    }
+    for (const Seeker& s : seeker_) {
+      const int code = choose_disc(std::span(s.variation).first(s.size), s.first, o_.select);
+      for (Index v : build_.levels.level[0].member.row(s.cluster))
+        if (flat[v]) take(v, static_cast<std::uint8_t>(code));
+    }
+  }
+
+ private:
+  struct Seeker {
+    Index cluster;
+    int first;  // smallest disc to look at
+    bool done = false;
+    std::size_t size = 0;
+    std::array<Real, kDiscs> variation{};
+  };
+
+  void collect(std::size_t level, Index c, const Codes& flat) {
+    const SampleLevel& l = build_.levels.level[level];
+    const auto row = l.member.row(c);
+    if (level > 0) {
+      for (Index i : row) collect(level - 1, i, flat);
+    } else if (std::any_of(row.begin(), row.end(), [&](Index v) { return flat[v]; })) {
+      int first = kFirstDisc;
+      while (first < kLastDisc && radius_[static_cast<std::size_t>(first - kFirstDisc)] < kSixRings * l.spacing[c])
+        ++first;
+      seeker_.push_back({c, first});
+    }
+  }
+
+  const LevelBuild& build_;
+  const ScaleOptions& o_;
+  DiscVoting voting_;
+  int last_ = kFirstDisc - 1;
+  const std::array<Real, kDiscs> radius_ = [] {
+    std::array<Real, kDiscs> r{};
+    for (int d = 0; d < kDiscs; ++d) r[static_cast<std::size_t>(d)] = disc_radius(kFirstDisc + d);
+    return r;
+  }();
+  std::vector<Seeker> seeker_;
+  std::vector<Seeker*> open_;
+  std::vector<Index> cluster_;
+  std::vector<Real> variation_;
+};
 
 // What a vertex is fitted in where nothing bends up to the largest disc.
-std::uint8_t flat_fit(Real spacing, const ScaleOptions& o) {
-  constexpr Real kRingWidth = 0.87;  // of a spacing
-  constexpr long kMostRings = 4;
-  const long rings = std::lround(std::min(o.flat_reach / (kRingWidth * spacing), Real(1000)));
-  if (rings <= kMostRings) return static_cast<std::uint8_t>(std::max<long>(rings, o.select.least_fit));
-  int code = kFirstDisc;
-  while (code < kLastDisc && disc_radius(code) < o.flat_reach) ++code;
-  return static_cast<std::uint8_t>(code);
-}
+class FlatFit {
+ public:
+  explicit FlatFit(const ScaleOptions& o) : reach_(o.flat_reach), least_(o.select.least_fit), disc_(kFirstDisc) {
+    while (disc_ < kLastDisc && disc_radius(disc_) < o.flat_reach) ++disc_;
+  }
+  std::uint8_t operator()(Real spacing) const {
+    constexpr Real kRingWidth = 0.87;  // of a spacing
+    constexpr long kMostRings = 4;
+    const long rings = std::lround(std::min(reach_ / (kRingWidth * spacing), Real(1000)));
+    return static_cast<std::uint8_t>(rings <= kMostRings ? std::max<long>(rings, least_) : disc_);
+  }
+
+ private:
+  Real reach_;
+  int least_, disc_;
+};
 
 // Discs for flat vertices; vertices that six rings call bent keep their rings.
 void choose_discs(const Work& work, const MeshView& mesh, std::span<const VotingFace> faces, const ScaleOptions& o,
@@ -96,22 +160,18 @@ void choose_discs(const Work& work, const MeshView& mesh, std::span<const Voting
   if (build.levels.level.empty()) return;
   const SampleLevel& base = build.levels.level[0];
   Codes code(mesh.vertex_count(), 0), smooth(mesh.vertex_count());
-  auto pool = make_scratch_pool([&] { return DiscWalker(build.levels); });
-  for_each_block(work, Cost::medium, base.size(), [&](std::size_t begin, std::size_t end, std::size_t) {
-    const auto walker = pool.borrow();
-    for (std::size_t i = begin; i < end; ++i) {
-      const Index c = static_cast<Index>(i);
-      const auto members = base.member.row(c);
-      if (std::none_of(members.begin(), members.end(), [&](Index v) { return flat[v]; })) continue;
-      const std::uint8_t chosen = choose_disc_of(build, c, o, *walker);
-      for (Index v : members)
-        if (flat[v]) code[v] = chosen;
-    }
+  auto pool = make_scratch_pool([&] { return DiscChoice(build, o); });
+  const Index starts = build.levels.level[DiscChoice::start_level(build.levels)].size();
+  for_each_block(work, Cost::heavy, starts, [&](std::size_t begin, std::size_t end, std::size_t) {
+    const auto choice = pool.borrow();
+    for (std::size_t c = begin; c < end; ++c)
+      choice->run(static_cast<Index>(c), flat, [&](Index v, std::uint8_t disc) { code[v] = disc; });
   });
   median_over_neighbours(work, mesh.vertex_vertices, code, smooth);
+  const FlatFit flat_fit(o);
   for_each(work, Cost::light, smooth.size(), [&](std::size_t v) {
     if (!flat[v]) return;
-    out.fit_ring[v] = smooth[v] ? smooth[v] : std::max(out.fit_ring[v], flat_fit(base.spacing[base.parent[v]], o));
+    out.fit_ring[v] = smooth[v] ? smooth[v] : std::max(out.fit_ring[v], flat_fit(base.spacing[base.parent[v]]));
   });
   out.levels = std::move(build.levels);
 }
