@@ -42,14 +42,39 @@ void DiscWalker::walk(List& list, Index first, const Vec3& centre, Real reach) {
     for (auto& s : stamp_) std::fill(s.begin(), s.end(), 0u);
     epoch_ = 1;
   }
-  list.id.assign(1, first);
+  // Wave by wave: what a wave is next to and has not been met, and then what of that is near enough. Without branches
+  // on either, which processors cannot predict.
+  const auto& id = list.id;
+  list.id.assign(std::max<std::size_t>(id.size(), 256), first);
   stamp[first] = epoch_;
-  for (std::size_t i = 0; i < list.id.size(); ++i)
-    for (Index w : l.neighbours.row(list.id[i])) {
-      if (stamp[w] == epoch_) continue;
-      stamp[w] = epoch_;
-      if ((l.centre[w] - centre).squaredNorm() <= reach * reach) list.id.push_back(w);
+  const Index* offset = l.neighbours.offset.data();
+  const Index* item = l.neighbours.item.data();
+  const Real *x = l.centre.x.data(), *y = l.centre.y.data(), *z = l.centre.z.data();
+  const Real cx = centre.x(), cy = centre.y(), cz = centre.z(), most = reach * reach;
+  std::size_t begin = 0, end = 1;
+  while (begin < end) {
+    std::size_t met = end;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Index from = offset[id[i]], to = offset[id[i] + 1];
+      if (id.size() < met + (to - from)) list.id.resize(2 * id.size() + (to - from));
+      Index* out = list.id.data();
+      for (Index j = from; j < to; ++j) {
+        const Index w = item[j];
+        const std::size_t fresh = stamp[w] != epoch_;
+        stamp[w] = epoch_;
+        out[met] = w;
+        met += fresh;
+      }
     }
+    begin = end;
+    for (std::size_t i = begin; i < met; ++i) {
+      const Index w = id[i];
+      const Real dx = x[w] - cx, dy = y[w] - cy, dz = z[w] - cz;
+      list.id[end] = w;
+      end += dx * dx + dy * dy + dz * dz <= most;
+    }
+  }
+  list.id.resize(end);
 }
 
 }  // namespace intarsia

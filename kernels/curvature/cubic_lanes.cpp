@@ -1,5 +1,6 @@
 #include "kernels/curvature/cubic_lanes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -18,7 +19,6 @@ struct Task {
   Real gate, least_pivot;
   bool slopes;
   Real least_count;
-  Real* room;
   LaneFits& fits;
 };
 
@@ -49,18 +49,10 @@ void fit(InstructionSet set, const Task& t) {
 }  // namespace
 
 void fit_ring_lanes(InstructionSet set, const LaneFrames& frames, std::span<const LanePoint> points,
-                    std::span<const LaneEntry> entries, std::size_t terms, const FitOptions& options,
-                    LaneScratch& scratch, LaneFits& fits) {
-  const Task task{frames,
-                  nullptr,
-                  points.data(),
-                  entries,
-                  options.normal_gate,
-                  options.least_pivot,
-                  options.rows == Rows::slopes,
-                  3,
-                  scratch.room(entries.size()),
-                  fits};
+                    std::span<const LaneEntry> entries, std::size_t terms, const FitOptions& options, LaneFits& fits) {
+  const Task task{
+      frames, nullptr, points.data(), entries, options.normal_gate, options.least_pivot, options.rows == Rows::slopes,
+      3,      fits};
   if (terms == 9)
     fit<9>(set, task);
   else
@@ -69,17 +61,8 @@ void fit_ring_lanes(InstructionSet set, const LaneFrames& frames, std::span<cons
 
 void fit_disc_lanes(InstructionSet set, const LaneFrames& frames, const LaneDiscs& discs,
                     std::span<const LanePoint> points, std::span<const LaneEntry> entries, const FitOptions& options,
-                    LaneScratch& scratch, LaneFits& fits) {
-  const Task task{frames,
-                  &discs,
-                  points.data(),
-                  entries,
-                  options.disc_gate,
-                  options.least_pivot,
-                  false,
-                  5,
-                  scratch.room(entries.size()),
-                  fits};
+                    LaneFits& fits) {
+  const Task task{frames, &discs, points.data(), entries, options.disc_gate, options.least_pivot, false, 5, fits};
   fit<10>(set, task);
 }
 

@@ -64,30 +64,16 @@ struct LaneFits {
   }
 };
 
-// Points in the lanes' frames, between the passes over them.
-class LaneScratch {
- public:
-  Real* room(std::size_t points) {
-    if (array_.size() < points * kStride) array_.resize(points * kStride);
-    return array_.data();
-  }
-  static constexpr std::size_t kStride = 6 * kLanes;  // x y z p q w
-
- private:
-  LaneArray array_;
-};
-
 // Fits 7 or 9 terms to the points of every lane, all of weight 1; points whose normal deviates more than `gate`
 // (cosine) do not take part. The centre itself must not be among a lane's points. Lanes that no entry names remain
 // unsolved. Requires: terms is 7 or 9; gate > 0; every lane of `frames` is set; entries.point < points.size().
 void fit_ring_lanes(InstructionSet set, const LaneFrames& frames, std::span<const LanePoint> points,
-                    std::span<const LaneEntry> entries, std::size_t terms, const FitOptions& options,
-                    LaneScratch& scratch, LaneFits& fits);
+                    std::span<const LaneEntry> entries, std::size_t terms, const FitOptions& options, LaneFits& fits);
 
 // Fits 10 terms to the points closer than radius + cell/2 to every lane's centre, weighted by area times the ramp of
 // engine/data/disc_walk.h, with rows and gate of discs.
 void fit_disc_lanes(InstructionSet set, const LaneFrames& frames, const LaneDiscs& discs,
                     std::span<const LanePoint> points, std::span<const LaneEntry> entries, const FitOptions& options,
-                    LaneScratch& scratch, LaneFits& fits);
+                    LaneFits& fits);
 
 }  // namespace intarsia::kernels

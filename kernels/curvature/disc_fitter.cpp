@@ -104,8 +104,7 @@ void DiscFitter::fit_pack(const Gathered& samples, const FitOptions& options) {
     entries_[size] = {static_cast<std::uint32_t>(i), lanes};
     size += squared_.data()[i] <= most;
   }
-  fit_disc_lanes(instruction_set(), f, discs_, samples.points, std::span(entries_).first(size), options, scratch_,
-                 pack_.fits);
+  fit_disc_lanes(instruction_set(), f, discs_, samples.points, std::span(entries_).first(size), options, pack_.fits);
 }
 
 }  // namespace intarsia::kernels

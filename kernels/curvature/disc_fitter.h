@@ -75,7 +75,6 @@ class DiscFitter {
   std::vector<LaneEntry> entries_;
   LaneArray squared_;
   LaneDiscs discs_;
-  LaneScratch scratch_;
   Pack pack_;
 };
 

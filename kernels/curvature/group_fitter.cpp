@@ -86,8 +86,7 @@ void GroupFitter::fit_pack(std::size_t at, const Vec3View& normal, std::size_t t
     entries_[size] = {static_cast<std::uint32_t>(i), use};
     size += use != 0;
   }
-  fit_ring_lanes(instruction_set(), pack_.frames, points_, std::span(entries_).first(size), terms, options, scratch_,
-                 pack_.fits);
+  fit_ring_lanes(instruction_set(), pack_.frames, points_, std::span(entries_).first(size), terms, options, pack_.fits);
 }
 
 }  // namespace intarsia::kernels

@@ -67,7 +67,6 @@ class GroupFitter {
   std::vector<LanePoint> points_;
   std::vector<Mask> masks_;  // per point: the vertices of the group that use it
   std::vector<LaneEntry> entries_;
-  LaneScratch scratch_;
   Pack pack_;
 };
 
