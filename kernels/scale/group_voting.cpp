@@ -88,7 +88,7 @@ bool GroupVoting::run(Index first, std::span<Variation> out) {
   const auto faces = walker_.faces(kRings);
   if (faces.size() > kMostFaces) return false;
   const std::size_t met = walker_.vertices(kRings - 1).size();
-  scratch_.make_room(met + 1, faces.size());
+  scratch_.make_room(met + 1, faces.size() + 1);
   Coordinates at[3];
   const std::span<const Real> from[3] = {mesh_.x, mesh_.y, mesh_.z};
   for (std::size_t i = 0; i < 3; ++i)
