@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "engine/parallel/for_each.h"
 #include "engine/parallel/scratch_pool.h"
@@ -83,6 +84,7 @@ void fit_in_rings(const Work& work, const MeshView& mesh, std::span<const std::u
                   CurvatureFields& out) {
   auto fitters = make_scratch_pool([&] { return GroupFitter(mesh, barrier); });
   for_each_block(work, Cost::medium, mesh.vertex_count(), [&](std::size_t begin, std::size_t end, std::size_t) {
+    if (with_discs && std::all_of(fit_ring.begin() + begin, fit_ring.begin() + end, is_disc)) return;
     const auto fitter = fitters.borrow();
     LaneCurvatures curvatures;
     for (std::size_t first = begin; first < end; first += GroupFitter::kGroup) {
@@ -144,6 +146,15 @@ void fit_in_discs(const Work& work, const MeshView& mesh, std::span<const std::u
   });
 }
 
+// Memory is cleared by the system when it is first touched, which takes long for large meshes: side by side.
+void make_room(const Work& work, std::size_t n, CurvatureFields& out) {
+  std::vector<Real>* const reals[] = {&out.normal.x, &out.normal.y, &out.normal.z, &out.kmax,   &out.kmin,
+                                      &out.tmax.x,   &out.tmax.y,   &out.tmax.z,   &out.tmin.x, &out.tmin.y,
+                                      &out.tmin.z,   &out.emax,     &out.emin,     &out.radius};
+  for_each(work, Cost::single, std::size(reals), [&](std::size_t i) { reals[i]->resize(n); });
+  out.resize(n);
+}
+
 }  // namespace
 
 CurvatureFields compute_curvature(const Work& work, const MeshView& mesh, const Vec3View& vertex_normal,
@@ -151,7 +162,7 @@ CurvatureFields compute_curvature(const Work& work, const MeshView& mesh, const 
                                   std::span<const std::uint8_t> barrier, const CurvatureOptions& options) {
   const std::size_t n = mesh.vertex_count();
   CurvatureFields out;
-  out.resize(n);
+  make_room(work, n, out);
   if (options.fit.refine_normals) {
     refine_normals(work, mesh, vertex_normal, fit_ring, barrier, options.fit, out.normal);
   } else {
