@@ -23,7 +23,7 @@ inline std::uint32_t hidden(std::uint32_t x) {
 }  // namespace
 
 GroupWalker::GroupWalker(const MeshView& mesh, std::span<const std::uint8_t> barrier)
-    : mesh_(mesh), vertex_stamp_(mesh.vertex_count(), 0), face_stamp_(mesh.face_count(), 0) {
+    : mesh_(mesh), vertex_stamp_(mesh.vertex_count(), 0) {
   if (barrier.empty()) return;
   stop_.assign(mesh.vertex_count(), 0);
   for (std::size_t e = 0; e < barrier.size(); ++e)
@@ -144,6 +144,7 @@ void GroupWalker::spread(std::size_t k) {
 void GroupWalker::collect_faces(int rings) {
   const Index* offset = mesh_.vertex_faces.offset.data();
   const Index* item = mesh_.vertex_faces.item.data();
+  if (face_stamp_.empty()) face_stamp_.assign(mesh_.face_count(), 0);
   std::uint32_t* stamp = face_stamp_.data();
   Index size = 0;
   for (int k = 1; k <= rings; ++k) {

@@ -15,7 +15,8 @@
 
 namespace intarsia {
 
-// One walker serves one thread at a time. It keeps 4 bytes per vertex and 4 per face, cleared once, not once per walk.
+// One walker serves one thread at a time. It keeps 4 bytes per vertex, and 4 per face once faces were asked for,
+// cleared once, not once per walk.
 class GroupWalker {
  public:
   static constexpr Index kGroup = 64;
