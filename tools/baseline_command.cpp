@@ -6,16 +6,12 @@
 #include <spdlog/spdlog.h>
 
 #include "engine/io/read_labels.h"
-#include "engine/io/read_mesh.h"
 #include "engine/io/write_file.h"
-#include "engine/run/trace.h"
 #include "graph/baseline_graph.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
-#include "tools/interrupt.h"
-#include "tools/option_flags.h"
-#include "tools/progress_bar.h"
 #include "tools/report.h"
+#include "tools/stage_command.h"
 #include "tools/view_flag.h"
 #include "tools/write_result.h"
 
@@ -30,7 +26,7 @@ const std::map<std::string, graph::Baseline> kMethods = {{"vsa", graph::Baseline
 struct BaselineFlags {
   std::string method, input, output, parts, property = "patch";
   Index patches = 40;
-  std::vector<double> view;
+  PictureFlags picture;
   CommonFlags common;
   OptionFlags stages;
 };
@@ -51,50 +47,29 @@ int baseline(const BaselineFlags& flags) {
   graph::LayoutOptions options = flags.stages.options(flags.common);
   options.patches = flags.patches;
   const graph::Baseline method = kMethods.at(flags.method);
-  RunSettings settings;
-  settings.threads = flags.common.threads, settings.seed = flags.common.seed;
-  settings.order = flags.common.order == "relaxed" ? Order::relaxed : Order::fixed;
-  RunContext context(settings, &interrupt_flag());
-  ProgressBar bar(flags.common.quiet ? ProgressBar::Style::none : ProgressBar::style_for_terminal());
-  context.add_listener(bar);
+  StageCommand command("baseline", flags.input, flags.common);
   OutputFolder folder(flags.output, result_names());
-
-  Flow flow(context, std::filesystem::path(flags.input).filename().string());
-  const auto read = [path = std::filesystem::path(flags.input)](const Work& work) { return read_mesh(work, path); };
-  const Port<Soup> soup = add_stage(flow, Stage<Soup>{"read", 1, 0, read, {}, 0.3});
-  const graph::BaselinePorts ports = graph::add_baseline_stages(flow, soup, options, method, parts_reader(flags));
+  const graph::BaselinePorts ports =
+      graph::add_baseline_stages(command.flow(), command.soup(), options, method, parts_reader(flags));
   nlohmann::json summary;
   const auto write = [&](const Work& work, const Soup& s, const graph::Surface& surface, const graph::Network& network,
                          const graph::Patches& patches, const graph::Layout& layout) {
     add_layout_report(summary, s, surface, network, layout, options.patches);
-    return write_baseline(work, folder, s, surface, patches, layout, graph::name_of(method), chosen_view(flags.view));
+    return write_baseline(work, folder, s, surface, patches, layout, graph::name_of(method),
+                          pictures_of(flags.picture));
   };
   using WriteStage = Stage<Written, Soup, graph::Surface, graph::Network, graph::Patches, graph::Layout>;
-  add_stage(flow, WriteStage{"write", 1, 0, write, {}, 1.5}, soup, ports.features.surface, ports.network, ports.patches,
-            ports.layout);
-
-  const auto report_now = [&] {
-    nlohmann::json report =
-        base_report("baseline", flags.input, flags.common, context, flow.record(), flags.stages.to_json(options));
-    report["method"] = graph::name_of(method);
-    report["options"]["patches"] = {{"value", options.patches}, {"given", true}};
-    if (!flags.parts.empty()) report["parts"] = flags.parts;
-    report.merge_patch(summary);
-    return report;
-  };
-  try {
-    flow.run();
-  } catch (const Error&) {
-    if (!flags.common.report.empty()) write_file_atomically(flags.common.report, report_now().dump(1) + "\n");
-    throw;
-  }
-  const nlohmann::json report = report_now();
-  const std::string text = report.dump(1) + "\n";
-  write_file_atomically(folder.file("report.json"), text);
+  add_stage(command.flow(), WriteStage{"write", 1, 0, write, {}, 1.5}, command.soup(), ports.features.surface,
+            ports.network, ports.patches, ports.layout);
+  const nlohmann::json report = command.run(flags.stages.to_json(options), [&](nlohmann::json& r) {
+    r["method"] = graph::name_of(method);
+    r["options"]["patches"] = {{"value", options.patches}, {"given", true}};
+    if (!flags.parts.empty()) r["parts"] = flags.parts;
+    r.merge_patch(summary);
+  });
+  write_file_atomically(folder.file("report.json"), text_of(report));
   folder.commit();
-  if (!flags.common.report.empty()) write_file_atomically(flags.common.report, text);
-  if (!flags.common.trace.empty())
-    write_file_atomically(flags.common.trace, chrome_trace({{"intarsia", &flow.record()}}).dump(1) + "\n");
+  command.write_records(report);
   if (!flags.common.quiet) {
     fmt::print("{}: {} patches, {} of them no discs, in {:.2f} s ({} threads)\n", graph::name_of(method),
                report["counts"]["patches"].get<int>(), report["counts"]["not_discs"].get<int>(),
@@ -127,7 +102,7 @@ void add_baseline_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--parts", flags->parts, "exoskeleton: parts of the body, .seg (one label a line) or .ply");
   command->add_option("--property", flags->property, "face property of a .ply with parts")->capture_default_str();
-  add_view_flag(*command, flags->view);
+  add_picture_flags(*command, flags->picture);
   add_common_flags(*command, flags->common);
   flags->stages.add_to(*command);
   command->callback([flags, &exit_code] { exit_code = baseline(*flags); });

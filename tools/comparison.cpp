@@ -23,6 +23,23 @@ RebuiltNumbers of(const graph::Rebuilt& r) {
   return {true, r.distance.hausdorff(), r.distance.rms(), r.distance.mean()};
 }
 
+// Distances below this are rounding: of two exact rebuilds neither is the better one.
+double ratio(double a, double b) {
+  constexpr double kRounding = 1e-9;  // diagonals
+  return std::max(a, kRounding) / std::max(b, kRounding);
+}
+
+// Geometric mean of what was added; 0 of nothing.
+class GeometricMean {
+ public:
+  void add(double value) { sum_ += std::log(value), ++count_; }
+  double value() const { return count_ > 0 ? std::exp(sum_ / count_) : 0; }
+
+ private:
+  double sum_ = 0;
+  int count_ = 0;
+};
+
 const MethodNumbers* find(const MeshNumbers& mesh, const std::string& method) {
   for (const MethodNumbers& m : mesh.methods)
     if (m.method == method) return &m;
@@ -74,9 +91,9 @@ std::vector<MeanRatios> mean_ratios(const std::vector<MeshNumbers>& table, const
   if (table.empty()) return means;
   for (const MethodNumbers& first : table.front().methods) {
     MeanRatios r;
-    r.name = first.name;
-    std::array<double, 4> h{}, rms{};
-    double q = 0, high = 0, most = 0;
+    r.method = first.method, r.name = first.name;
+    std::array<GeometricMean, 4> h, rms;
+    GeometricMean q, high, most;
     for (const MeshNumbers& mesh : table) {
       const MethodNumbers *m = find(mesh, first.method), *b = find(mesh, base);
       if (!m || !b || !mesh.reference.empty()) continue;
@@ -84,17 +101,15 @@ std::vector<MeanRatios> mean_ratios(const std::vector<MeshNumbers>& table, const
       r.not_discs += static_cast<int>(m->not_discs);
       for (std::size_t i = 0; i < 4; ++i) {
         if (!way(*m, i).made || !way(*b, i).made) continue;
-        const double ratio = way(*m, i).rms / way(*b, i).rms;
-        h[i] += std::log(way(*m, i).hausdorff / way(*b, i).hausdorff), rms[i] += std::log(ratio);
-        r.worst_rms[i] = std::max(r.worst_rms[i], ratio);
+        const double of_rms = ratio(way(*m, i).rms, way(*b, i).rms);
+        h[i].add(ratio(way(*m, i).hausdorff, way(*b, i).hausdorff)), rms[i].add(of_rms);
+        r.worst_rms[i] = std::max(r.worst_rms[i], of_rms);
       }
-      q += std::log(m->q_median / b->q_median), high += std::log(m->q_high / b->q_high);
-      most += std::log(m->q_most / b->q_most);
+      q.add(m->q_median / b->q_median), high.add(m->q_high / b->q_high), most.add(m->q_most / b->q_most);
     }
     if (r.meshes == 0) continue;
-    for (std::size_t i = 0; i < 4; ++i)
-      r.hausdorff[i] = std::exp(h[i] / r.meshes), r.rms[i] = std::exp(rms[i] / r.meshes);
-    r.q_median = std::exp(q / r.meshes), r.q_high = std::exp(high / r.meshes), r.q_most = std::exp(most / r.meshes);
+    for (std::size_t i = 0; i < 4; ++i) r.hausdorff[i] = h[i].value(), r.rms[i] = rms[i].value();
+    r.q_median = q.value(), r.q_high = high.value(), r.q_most = most.value();
     means.push_back(r);
   }
   return means;
@@ -173,8 +188,8 @@ json comparison_json(const std::vector<MeshNumbers>& table) {
                              {"methods", std::move(rows)}});
   }
   for (const MeanRatios& r : mean_ratios(table, "vsa")) {
-    json row = {{"name", r.name},   {"meshes", r.meshes}, {"q_median", r.q_median},
-                {"q_90", r.q_high}, {"q_most", r.q_most}, {"not_discs", r.not_discs}};
+    json row = {{"method", r.method}, {"name", r.name},     {"meshes", r.meshes},      {"q_median", r.q_median},
+                {"q_90", r.q_high},   {"q_most", r.q_most}, {"not_discs", r.not_discs}};
     for (std::size_t i = 0; i < 4; ++i)
       row[kWays[i]] = {{"hausdorff", r.hausdorff[i]}, {"rms", r.rms[i]}, {"worst_rms", r.worst_rms[i]}};
     out["means"].push_back(std::move(row));

@@ -36,7 +36,7 @@ MethodNumbers numbers_of(const graph::Evaluation& evaluation);
 
 // Geometric means over the meshes of the ratios to the method `base`; meshes with a reference are left out.
 struct MeanRatios {
-  std::string name;
+  std::string method, name;
   int meshes = 0;
   double hausdorff[4] = {}, rms[4] = {}, worst_rms[4] = {};  // triangulated, area, transfinite, filled
   double q_median = 0, q_high = 0, q_most = 0;

@@ -3,18 +3,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "engine/io/read_mesh.h"
-#include "engine/io/write_file.h"
 #include "engine/io/write_ply.h"
 #include "engine/parallel/for_each.h"
-#include "engine/run/trace.h"
 #include "graph/layout_graph.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
-#include "tools/interrupt.h"
-#include "tools/option_flags.h"
-#include "tools/progress_bar.h"
-#include "tools/report.h"
+#include "tools/stage_command.h"
 #include "tools/write_result.h"
 
 namespace intarsia::tools {
@@ -70,39 +64,17 @@ Written write_fields(const Work& work, const std::filesystem::path& path, const 
 int features(const FeaturesFlags& flags) {
   graph::LayoutOptions options = flags.method.options(flags.common);
   options.scale.keep_variation = true;
-  RunSettings settings;
-  settings.threads = flags.common.threads, settings.seed = flags.common.seed;
-  settings.order = flags.common.order == "relaxed" ? Order::relaxed : Order::fixed;
-  RunContext context(settings, &interrupt_flag());
-  ProgressBar bar(flags.common.quiet ? ProgressBar::Style::none : ProgressBar::style_for_terminal());
-  context.add_listener(bar);
-
-  Flow flow(context, std::filesystem::path(flags.input).filename().string());
-  const auto read = [path = std::filesystem::path(flags.input)](const Work& work) { return read_mesh(work, path); };
-  const Port<Soup> soup = add_stage(flow, Stage<Soup>{"read", 1, 0, read, {}, 0.3});
-  const graph::FeaturePorts ports = graph::add_feature_stages(flow, soup, options);
+  StageCommand command("features", flags.input, flags.common);
+  const graph::FeaturePorts ports = graph::add_feature_stages(command.flow(), command.soup(), options);
   const auto write = [path = std::filesystem::path(flags.output)](
                          const Work& work, const Soup& s, const graph::Surface& surface, const graph::Scale& scale,
                          const graph::Curvature& curvature) {
     return write_fields(work, path, s, surface, scale, curvature);
   };
-  add_stage(flow, Stage<Written, Soup, graph::Surface, graph::Scale, graph::Curvature>{"write", 1, 0, write, {}, 0.5},
-            soup, ports.surface, ports.scale, ports.curvature);
-  const auto write_report = [&] {
-    if (flags.common.report.empty()) return;
-    const nlohmann::json report =
-        base_report("features", flags.input, flags.common, context, flow.record(), flags.method.to_json(options));
-    write_file_atomically(flags.common.report, report.dump(1) + "\n");
-  };
-  try {
-    flow.run();
-  } catch (const Error&) {
-    write_report();
-    throw;
-  }
-  write_report();
-  if (!flags.common.trace.empty())
-    write_file_atomically(flags.common.trace, chrome_trace({{"intarsia", &flow.record()}}).dump(1) + "\n");
+  using WriteStage = Stage<Written, Soup, graph::Surface, graph::Scale, graph::Curvature>;
+  add_stage(command.flow(), WriteStage{"write", 1, 0, write, {}, 0.5}, command.soup(), ports.surface, ports.scale,
+            ports.curvature);
+  command.write_records(command.run(flags.method.to_json(options)));
   if (!flags.common.quiet) fmt::print("written to {}\n", flags.output);
   return kExitDone;
 }

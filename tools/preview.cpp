@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "tools/picture/strip.h"
-
 namespace intarsia::tools {
 namespace {
 
@@ -33,10 +31,9 @@ Panel layout_panel(const graph::Layout& layout, std::span<const Rgb> colour) {
 
 }  // namespace
 
-Image draw_preview(const Work& work, const PreviewInput& in, const std::optional<View>& view) {
+Strip preview_strip(const PreviewInput& in) {
   const MeshView mesh = in.surface.mesh;
   Strip strip;
-  strip.options.view = view;
   strip.add(panel("input", counted(mesh.face_count(), "triangle", "triangles"), shape_of(mesh)));
 
   Lines raw = lines_of(mesh, in.ridges.curves.net);
@@ -48,23 +45,22 @@ Image draw_preview(const Work& work, const PreviewInput& in, const std::optional
   strip.add(panel("filtered", counted(in.network.features.curve_count(), "curve", "curves"), shape_of(mesh),
                   lines_of(mesh, in.network.features)));
   const RefinedMesh& network = in.network.refined;
-  strip.add(panel("closed network", counted(in.network.patches, "region", "regions"), shape_of(network.mesh.view()),
+  strip.add(panel("closed network", counted(in.network.patches, "region", "regions"), shape_of(mesh),
                   lines_of(network.mesh, network.on_network, network.edge_kind)));
   strip.add(layout_panel(in.layout, in.patch_colour));
-  return draw_strip(work, strip);
+  return strip;
 }
 
-Image draw_baseline_preview(const Work& work, const BaselinePreviewInput& in, const std::optional<View>& view) {
+Strip baseline_strip(const BaselinePreviewInput& in) {
   const MeshView mesh = in.surface.mesh;
   Strip strip;
-  strip.options.view = view;
   strip.add(panel("input", counted(mesh.face_count(), "triangle", "triangles"), shape_of(mesh)));
   Shape labelled = shape_of(mesh);
   labelled.face_label = in.patches.labels.patch_of_face;
   labelled.label_colour = in.patch_colour;
   strip.add(panel(in.method, counted(in.patches.labels.count, "region", "regions"), labelled));
   strip.add(layout_panel(in.layout, in.patch_colour));
-  return draw_strip(work, strip);
+  return strip;
 }
 
 }  // namespace intarsia::tools

@@ -1,13 +1,11 @@
 // The strip of five pictures that shows a run: input, raw lines, filtered curves, closed network, patches.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "engine/io/write_layout.h"
 #include "graph/artefacts.h"
-#include "tools/picture/camera.h"
-#include "tools/picture/image.h"
+#include "tools/picture/strip.h"
 
 namespace intarsia::tools {
 
@@ -21,8 +19,8 @@ struct PreviewInput {
   std::span<const Rgb> patch_colour;
 };
 
-// view: where from; none = chosen from the geometry.
-Image draw_preview(const Work& work, const PreviewInput& input, const std::optional<View>& view = {});
+// A view of its input, which must outlive it.
+Strip preview_strip(const PreviewInput& input);
 
 struct BaselinePreviewInput {
   const graph::Surface& surface;
@@ -33,6 +31,6 @@ struct BaselinePreviewInput {
 };
 
 // Input, the method's labels as they came, and the layout made of them.
-Image draw_baseline_preview(const Work& work, const BaselinePreviewInput& input, const std::optional<View>& view = {});
+Strip baseline_strip(const BaselinePreviewInput& input);
 
 }  // namespace intarsia::tools

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <filesystem>
 #include <map>
@@ -13,12 +15,12 @@
 #include "graph/evaluate.h"
 #include "tools/commands.h"
 #include "tools/comparison.h"
+#include "tools/comparison_picture.h"
 #include "tools/exit_code.h"
 #include "tools/interrupt.h"
-#include "tools/option_flags.h"
-#include "tools/picture/palette.h"
 #include "tools/picture/png_file.h"
-#include "tools/picture/strip.h"
+#include "tools/stage_command.h"
+#include "tools/view_flag.h"
 
 namespace intarsia::tools {
 namespace {
@@ -28,23 +30,51 @@ using graph::Method;
 struct TableFlags {
   std::vector<std::string> meshes, counts, references, methods;
   std::string output;
+  std::vector<double> view;
+  bool rebuilt = false;
   Index patches = 40, loop_samples = 100;
   std::uint64_t samples = 400'000;
   CommonFlags common;
   OptionFlags method;
 };
 
+SheetOptions sheet_of(const TableFlags& flags) {
+  SheetOptions options;
+  options.view = chosen_view(flags.view);
+  return options;
+}
+
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-// "name=value" pairs of a flag.
-std::map<std::string, std::string> pairs(const std::vector<std::string>& given, const char* flag) {
+std::string name_of_mesh(const std::string& path) { return std::filesystem::path(path).stem().string(); }
+
+// "mesh=value" pairs of a flag.
+std::map<std::string, std::string> pairs(const TableFlags& flags, const std::vector<std::string>& given,
+                                         const char* flag) {
   std::map<std::string, std::string> out;
   for (const std::string& text : given) {
     const auto at = text.find('=');
     if (at == std::string::npos || at == 0 || at + 1 == text.size())
       throw Error(ErrorCode::bad_argument,
                   fmt::format("{} {}: write MESH=VALUE, MESH as the file is named", flag, text));
-    out[text.substr(0, at)] = text.substr(at + 1);
+    const std::string name = text.substr(0, at);
+    if (std::none_of(flags.meshes.begin(), flags.meshes.end(),
+                     [&](const std::string& path) { return name_of_mesh(path) == name; }))
+      throw Error(ErrorCode::bad_argument, fmt::format("{} {}: there is no mesh of that name", flag, text));
+    out[name] = text.substr(at + 1);
+  }
+  return out;
+}
+
+// Wanted patches of the meshes that have a number of their own.
+std::map<std::string, Index> counts_of(const TableFlags& flags) {
+  std::map<std::string, Index> out;
+  for (const auto& [mesh, text] : pairs(flags, flags.counts, "--count")) {
+    Index count = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+    if (error != std::errc() || end != text.data() + text.size() || count == 0)
+      throw Error(ErrorCode::bad_argument, fmt::format("--count {}={}: write a number of patches", mesh, text));
+    out[mesh] = count;
   }
   return out;
 }
@@ -62,44 +92,6 @@ Mesh with_positions(const graph::Surface& surface, const Soup& soup, const std::
   return mesh;
 }
 
-// What of a layout is drawn.
-struct Drawn {
-  graph::Layout layout;
-  std::vector<Rgb> colour;
-  Lines borders;
-  std::string title, caption;
-};
-
-Image draw_row(const Work& work, const graph::Surface& surface, const std::string& mesh,
-               const std::vector<Drawn>& drawn) {
-  Strip strip;
-  strip.options.width = 300, strip.options.height = 280, strip.options.legend = false;
-  strip.add({.title = mesh,
-             .caption = fmt::format("{} triangles", surface.mesh.face_count()),
-             .shape = shape_of(surface.mesh.view()),
-             .lines = {}});
-  for (const Drawn& d : drawn) {
-    Shape shape = shape_of(d.layout.refined.mesh.view());
-    shape.face_label = d.layout.labels.patch_of_face;
-    shape.label_colour = d.colour;
-    strip.add({.title = d.title, .caption = d.caption, .shape = shape, .lines = d.borders});
-  }
-  return draw_strip(work, strip);
-}
-
-Image stack(const std::vector<Image>& rows) {
-  int width = 1, height = 0;
-  for (const Image& r : rows) width = std::max(width, r.width), height += r.height;
-  Image out(width, std::max(1, height));
-  int top = 0;
-  for (const Image& r : rows) {
-    for (int y = 0; y < r.height; ++y)
-      for (int x = 0; x < r.width; ++x) out.at(x, top + y) = r.at(x, y);
-    top += r.height;
-  }
-  return out;
-}
-
 struct Comparison {
   std::vector<MeshNumbers> table;
   std::vector<Image> rows;
@@ -107,13 +99,13 @@ struct Comparison {
 
 void compare_mesh(const Work& work, const TableFlags& flags, const graph::LayoutOptions& options,
                   const std::string& path, const std::vector<Method>& methods, Comparison& out) {
-  const std::string name = std::filesystem::path(path).stem().string();
+  const std::string name = name_of_mesh(path);
   graph::LayoutOptions o = options;
-  const auto counts = pairs(flags.counts, "--count");
+  const auto counts = counts_of(flags);
   o.patches = flags.patches;
-  if (const auto it = counts.find(name); it != counts.end()) o.patches = static_cast<Index>(std::stoul(it->second));
+  if (const auto it = counts.find(name); it != counts.end()) o.patches = it->second;
   const graph::Prepared prepared = graph::prepare(work, read_mesh(work, path), o);
-  const auto references = pairs(flags.references, "--reference");
+  const auto references = pairs(flags, flags.references, "--reference");
   Mesh against;
   MeshNumbers numbers;
   if (const auto it = references.find(name); it != references.end()) {
@@ -127,23 +119,17 @@ void compare_mesh(const Work& work, const TableFlags& flags, const graph::Layout
   evaluate.sample.loop_samples = flags.loop_samples;
   evaluate.distance.samples = flags.samples;
   evaluate.make_triangulated_area = true;
-  std::vector<Drawn> drawn;
+  std::vector<DrawnMethod> drawn;
   for (const Method method : methods) {
     work.check();
     const double start = now();
-    Drawn d;
+    DrawnMethod d;
     d.layout = graph::layout_by(work, prepared, method, o);
     const double seconds = now() - start;
-    const graph::Evaluation e =
+    d.evaluation =
         graph::evaluate(work, target, d.layout.refined, d.layout.labels.patch_of_face, d.layout.graph, evaluate);
-    MethodNumbers m = numbers_of(e);
+    MethodNumbers m = numbers_of(d.evaluation);
     m.method = graph::short_name_of(method), m.name = graph::name_of(method), m.seconds = seconds;
-    d.title = m.name;
-    d.caption = fmt::format("R {:.2f} q {:.1f}", 1e3 * m.triangulated.rms, m.q_median);
-    d.colour = patch_colours(
-        work, adjacent_patches(work, d.layout.refined.mesh, d.layout.labels.patch_of_face, d.layout.labels.count));
-    d.borders = restyled(lines_of(d.layout.refined.mesh, d.layout.refined.on_network, d.layout.refined.edge_kind),
-                         LineStyle{{44, 44, 50}, 1.0f});
     if (!flags.common.quiet)
       fmt::print(
           "{:<14} {:<27} {:>3} patches  triangulated H {:6.2f} R {:6.3f}  filled H {:6.2f} R {:6.3f}  q {:.2f}  "
@@ -153,20 +139,24 @@ void compare_mesh(const Work& work, const TableFlags& flags, const graph::Layout
     numbers.methods.push_back(std::move(m));
     drawn.push_back(std::move(d));
   }
-  out.rows.push_back(draw_row(work, prepared.surface, name, drawn));
+  out.rows.push_back(draw_comparison(work, prepared.surface, numbers, drawn, flags.rebuilt, sheet_of(flags)));
   out.table.push_back(std::move(numbers));
 }
 
 int table1(const TableFlags& flags) {
   const graph::LayoutOptions options = flags.method.options(flags.common);
-  RunSettings settings;
-  settings.threads = flags.common.threads, settings.seed = flags.common.seed;
-  RunContext context(settings, &interrupt_flag());
+  // What is wrong is said before anything is computed.
+  counts_of(flags);
+  pairs(flags, flags.references, "--reference");
+  for (const std::string& mesh : flags.meshes)
+    if (!std::filesystem::exists(mesh)) read_mesh(Work(), mesh);
+  RunContext context(settings_of(flags.common), &interrupt_flag());
   std::vector<Method> methods;
+  std::vector<std::string> names;
   for (const Method m : graph::all_methods())
     if (flags.methods.empty() ||
         std::find(flags.methods.begin(), flags.methods.end(), graph::short_name_of(m)) != flags.methods.end())
-      methods.push_back(m);
+      methods.push_back(m), names.push_back(graph::name_of(m));
   OutputFolder folder(flags.output, {"table1.md", "table1.csv", "table1.json", "table1.png"});
   Comparison comparison;
   const Work work = context.work();
@@ -181,7 +171,7 @@ int table1(const TableFlags& flags) {
   write_file_atomically(folder.file("table1.md"), markdown);
   write_file_atomically(folder.file("table1.csv"), comparison_csv(comparison.table));
   write_file_atomically(folder.file("table1.json"), comparison_json(comparison.table).dump(1) + "\n");
-  write_png(folder.file("table1.png"), stack(comparison.rows));
+  write_png(folder.file("table1.png"), join_comparisons(comparison.rows, names, sheet_of(flags)));
   folder.commit();
   if (!flags.common.quiet)
     fmt::print("\n{}\nwritten to {}: table1.md table1.csv table1.json table1.png\n",
@@ -212,6 +202,8 @@ void add_table1_command(CLI::App& app, int& exit_code) {
   command->add_option("--samples", flags->samples, "distance samples")
       ->check(CLI::Range(1000, 20'000'000))
       ->capture_default_str();
+  command->add_flag("--rebuilt", flags->rebuilt, "draw the triangulated and filled surfaces below the layouts");
+  add_view_flag(*command, flags->view);
   add_common_flags(*command, flags->common);
   flags->method.add_to(*command);
   command->callback([flags, &exit_code] { exit_code = table1(*flags); });

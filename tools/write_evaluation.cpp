@@ -1,8 +1,6 @@
 #include "tools/write_evaluation.h"
 
 #include <algorithm>
-#include <array>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -12,6 +10,7 @@
 #include "tools/picture/palette.h"
 #include "tools/picture/png_file.h"
 #include "tools/picture/strip.h"
+#include "tools/rebuilt_shape.h"
 
 namespace intarsia::tools {
 namespace {
@@ -114,31 +113,6 @@ Lines arc_lines(const LayoutFromFile& layout) {
   return lines;
 }
 
-// Borders between patches of a rebuilt surface.
-Lines border_lines(const kernels::Reconstruction& r) {
-  struct Side {
-    Index a, b, patch;
-  };
-  std::vector<Side> side;
-  for (std::size_t t = 0; t < r.patch.size(); ++t)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index a = r.corner[3 * t + i], b = r.corner[3 * t + (i + 1) % 3];
-      side.push_back({std::min(a, b), std::max(a, b), r.patch[t]});
-    }
-  std::sort(side.begin(), side.end(),
-            [](const Side& x, const Side& y) { return std::tuple(x.a, x.b, x.patch) < std::tuple(y.a, y.b, y.patch); });
-  Lines lines;
-  for (std::size_t s = 0; s < side.size();) {
-    std::size_t e = s + 1;
-    bool border = true;
-    for (; e < side.size() && side[e].a == side[s].a && side[e].b == side[s].b; ++e)
-      border = border && side[e].patch != side[s].patch;
-    if (border) lines.add(std::array{r.point[side[s].a], r.point[side[s].b]}, kBorderLine);
-    s = e;
-  }
-  return lines;
-}
-
 std::string percent(Real value) { return fmt::format("{:.3g} %", 100 * value); }
 
 }  // namespace
@@ -194,11 +168,9 @@ Image draw_evaluation(const Work& work, const LayoutFromFile& layout, const grap
   strip.add({"layout", fmt::format("{} patches, q {:.2f} median", evaluation.patches, evaluation.compactness.median),
              patched, arc_lines(layout)});
   for (const auto& [name, r] : made) {
-    Shape shape;
-    shape.x = r->surface.point.x, shape.y = r->surface.point.y, shape.z = r->surface.point.z;
-    shape.corner = r->surface.corner, shape.face_label = r->surface.patch, shape.label_colour = colour;
-    shape.smooth = name == "filled" || name == "transfinite";
-    strip.add({title_of(name), fmt::format("{} triangles", r->surface.patch.size()), shape, border_lines(r->surface)});
+    const Shape shape = shape_of(r->surface, colour, name == "filled" || name == "transfinite");
+    strip.add({title_of(name), fmt::format("{} triangles", r->surface.patch.size()), shape,
+               border_lines(r->surface, kBorderLine)});
   }
   strip.add({"input", fmt::format("{} triangles", layout.mesh.face_count()), input, {}});
   std::vector<std::vector<Rgb>> map;

@@ -30,6 +30,12 @@ void write_layout_files(const Work& work, const OutputFolder& folder, const Soup
   write_network_json(work, folder.file("network.json"), parts);
 }
 
+void draw(const Work& work, const OutputFolder& folder, Strip strip, const Pictures& pictures) {
+  strip.options.view = pictures.view;
+  write_png(folder.file("preview.png"), draw_strip(work, strip));
+  if (!pictures.panels.empty()) write_panels(work, strip, pictures.panels);
+}
+
 Written count_files(const OutputFolder& folder) {
   Written written;
   for (const std::string& name : result_names()) {
@@ -48,20 +54,19 @@ std::vector<std::string> result_names() {
 
 Written write_result(const Work& work, const OutputFolder& folder, const Soup& soup, const graph::Surface& surface,
                      const graph::Ridges& ridges, const graph::Ridges& valleys, const graph::Sharp& sharp,
-                     const graph::Network& network, const graph::Layout& layout, const std::optional<View>& view) {
+                     const graph::Network& network, const graph::Layout& layout, const Pictures& pictures) {
   const std::vector<Rgb> colour = colours_of(work, layout);
   write_layout_files(work, folder, soup, surface, layout, colour);
-  write_png(folder.file("preview.png"),
-            draw_preview(work, {surface, ridges, valleys, sharp, network, layout, colour}, view));
+  draw(work, folder, preview_strip({surface, ridges, valleys, sharp, network, layout, colour}), pictures);
   return count_files(folder);
 }
 
 Written write_baseline(const Work& work, const OutputFolder& folder, const Soup& soup, const graph::Surface& surface,
                        const graph::Patches& patches, const graph::Layout& layout, const std::string& method,
-                       const std::optional<View>& view) {
+                       const Pictures& pictures) {
   const std::vector<Rgb> colour = colours_of(work, layout);
   write_layout_files(work, folder, soup, surface, layout, colour);
-  write_png(folder.file("preview.png"), draw_baseline_preview(work, {surface, patches, layout, method, colour}, view));
+  draw(work, folder, baseline_strip({surface, patches, layout, method, colour}), pictures);
   return count_files(folder);
 }
 

@@ -1,11 +1,9 @@
 // The "write" stage: the files of a run's output folder, and what remains of the run for its report.
 #pragma once
 
-#include <optional>
-
 #include "engine/io/output_folder.h"
 #include "graph/artefacts.h"
-#include "tools/picture/camera.h"
+#include "tools/view_flag.h"
 
 namespace intarsia::tools {
 
@@ -22,11 +20,11 @@ inline std::size_t items_of(const Written& w) { return w.files; }
 
 Written write_result(const Work& work, const OutputFolder& folder, const Soup& soup, const graph::Surface& surface,
                      const graph::Ridges& ridges, const graph::Ridges& valleys, const graph::Sharp& sharp,
-                     const graph::Network& network, const graph::Layout& layout, const std::optional<View>& view);
+                     const graph::Network& network, const graph::Layout& layout, const Pictures& pictures);
 
 // The same files of a method without curves. method: its name, over the picture of its labels.
 Written write_baseline(const Work& work, const OutputFolder& folder, const Soup& soup, const graph::Surface& surface,
                        const graph::Patches& patches, const graph::Layout& layout, const std::string& method,
-                       const std::optional<View>& view);
+                       const Pictures& pictures);
 
 }  // namespace intarsia::tools

@@ -1,5 +1,6 @@
 #include "tools/picture/font.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -224,6 +225,17 @@ void draw_text(Image& image, float x, float y, std::string_view text, const Text
     mask.blend(image, style.colour);
     x = right;
   }
+}
+
+void draw_text_within(Image& image, float x, float y, std::string_view text, const TextStyle& style, float room) {
+  TextStyle fitting = style;
+  if (const float width = text_width(text, style); width > room) fitting.size *= room / width;
+  draw_text(image, x, y, text, fitting);
+}
+
+void draw_centred(Image& image, float centre, float y, std::string_view text, const TextStyle& style, float room) {
+  const float width = std::min(room, text_width(text, style));
+  draw_text_within(image, std::round(centre - 0.5f * width), y, text, style, room);
 }
 
 void draw_stroke(Image& image, float x0, float y0, float x1, float y1, float width, Rgb colour) {

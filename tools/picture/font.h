@@ -21,6 +21,10 @@ float text_width(std::string_view text, const TextStyle& style);
 // outside the image are cut.
 void draw_text(Image& image, float x, float y, std::string_view text, const TextStyle& style);
 
+// The same, smaller where it would be wider than `room`.
+void draw_text_within(Image& image, float x, float y, std::string_view text, const TextStyle& style, float room);
+void draw_centred(Image& image, float centre, float y, std::string_view text, const TextStyle& style, float room);
+
 // A thick line with round ends, for legends. Pixels, from the upper left corner.
 void draw_stroke(Image& image, float x0, float y0, float x1, float y1, float width, Rgb colour);
 

@@ -10,6 +10,7 @@
 //   write_png("preview.png", draw_strip(work, strip));
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,5 +50,12 @@ struct Strip {
 // Ensures: the same bytes for any number of threads.
 // Errors: bad_argument.
 Image draw_strip(const Work& work, const Strip& strip);
+
+// Every panel by itself, as in the strip but without text: for other compositions.
+std::vector<Image> draw_panels(const Work& work, const Strip& strip);
+
+// The same as PNG files named after the panels: "closed network" becomes closed-network.png. Makes the folder.
+// Errors: write_failed.
+void write_panels(const Work& work, const Strip& strip, const std::filesystem::path& folder);
 
 }  // namespace intarsia::tools

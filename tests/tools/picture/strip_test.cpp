@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
+#include <unistd.h>
 
 #include "tests/tools/picture/picture_shapes.h"
 #include "tools/picture/best_view.h"
@@ -67,6 +68,29 @@ TEST_CASE("panels stand side by side on white and show their colours") {
   CHECK(std::abs(plain.r - plain.b) < 10);
   strip.options.per_row = 1;
   CHECK(draw_strip({}, strip).height > image.height + 100);
+}
+
+TEST_CASE("panels by themselves are those of the strip, and become files named after them") {
+  const Triangles ball = sphere(40, 80);
+  std::vector<Index> label;
+  Strip strip = example(ball, label, kTwo);
+  const Image whole = draw_strip({}, strip);
+  const std::vector<Image> panel = draw_panels({}, strip);
+  REQUIRE(panel.size() == 2);
+  for (int i = 0; i < 2; ++i) {
+    const Image& one = panel[static_cast<std::size_t>(i)];
+    int different = 0;
+    for (int y = 0; y < one.height; ++y)
+      for (int x = 0; x < one.width; ++x)
+        different += one.at(x, y) == whole.at(14 + i * (one.width + 14) + x, 14 + y) ? 0 : 1;
+    CHECK(different == 0);
+  }
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("intarsia-panels-" + std::to_string(getpid()));
+  write_panels({}, strip, folder / "deeper");
+  CHECK(std::filesystem::file_size(folder / "deeper/input.png") > 0);
+  CHECK(std::filesystem::file_size(folder / "deeper/2-patches.png") > 0);
+  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("a strip without panels, a panel without faces and a picture off its image are refused") {
