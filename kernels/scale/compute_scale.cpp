@@ -70,9 +70,9 @@ class DiscChoice {
   DiscChoice(const LevelBuild& build, const ScaleOptions& options) : build_(build), o_(options), voting_(build) {
     while (last_ < kLastDisc && disc_radius(last_ + 1) <= o_.largest_disc * 1.000001) ++last_;
   }
-  // The level of the coarse clusters; theirs hold about 64 vertices.
+  // The level of the coarse clusters; theirs hold about 256 vertices.
   static std::size_t start_level(const SampleLevels& levels) {
-    return std::min<std::size_t>(levels.level.size() - 1, 2);
+    return std::min<std::size_t>(levels.level.size() - 1, 3);
   }
 
   // take(vertex, code) for every flat vertex below cluster c of the start level; code 0 where no disc sees a bend.
