@@ -110,32 +110,33 @@ std::vector<Index> aggregate(const Work& work, CsrView graph, Vec3View point, In
   return parent;
 }
 
-// The clusters that share an edge with each cluster, by two passes over the members: count, scan, write.
+// The clusters that share an edge with each cluster: rows by block, then one after the other.
 Csr cluster_graph(const Work& work, CsrView graph, const std::vector<Index>& parent, const Csr& member) {
   Csr out;
   out.offset.assign(std::size_t{member.rows()} + 1, 0);
-  const auto around = [&](Index c, std::vector<Index>& row) {
-    row.clear();
-    for (Index i : member.row(c))
-      for (Index w : graph.row(i))
-        if (parent[w] != c) row.push_back(parent[w]);
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
-  };
-  for_each_block(work, kBlock, member.rows(), [&](std::size_t begin, std::size_t end, std::size_t) {
-    std::vector<Index> row;
-    for (std::size_t c = begin; c < end; ++c) {
-      around(static_cast<Index>(c), row);
-      out.offset[c] = static_cast<Index>(row.size());
+  std::vector<std::vector<Index>> rows(block_count(kBlock, member.rows()));
+  for_each_block(work, kBlock, member.rows(), [&](std::size_t begin, std::size_t end, std::size_t b) {
+    std::vector<Index>& list = rows[b];
+    list.reserve(7 * (end - begin));
+    for (std::size_t at = begin; at < end; ++at) {
+      const Index c = static_cast<Index>(at);
+      const std::size_t first = list.size();
+      for (Index i : member.row(c))
+        for (Index w : graph.row(i)) {
+          const Index p = parent[w];
+          if (p == c) continue;
+          // Rows are short: what was found before is found again soonest from the end.
+          std::size_t j = list.size();
+          while (j > first && list[j - 1] > p) --j;
+          if (j == first || list[j - 1] != p) list.insert(list.begin() + static_cast<std::ptrdiff_t>(j), p);
+        }
+      out.offset[at] = static_cast<Index>(list.size() - first);
     }
   });
   out.item.resize(exclusive_scan<Index>(work, out.offset));
-  for_each_block(work, kBlock, member.rows(), [&](std::size_t begin, std::size_t end, std::size_t) {
-    std::vector<Index> row;
-    for (std::size_t c = begin; c < end; ++c) {
-      around(static_cast<Index>(c), row);
-      std::copy(row.begin(), row.end(), out.item.begin() + out.offset[c]);
-    }
+  for_each_block(work, kBlock, member.rows(), [&](std::size_t begin, std::size_t, std::size_t b) {
+    std::copy(rows[b].begin(), rows[b].end(), out.item.begin() + out.offset[begin]);
+    rows[b] = {};
   });
   return out;
 }

@@ -144,6 +144,45 @@ struct Star {
   }
 };
 
+// True if the star is beyond doubt in order: few faces, no two of them running along an edge in the same direction, and
+// one fan. Most stars are; the others are looked at closely.
+bool is_plain_star(const Soup& soup, std::span<const Index> corners) {
+  constexpr std::size_t kFew = 12;
+  const std::size_t n = corners.size();
+  if (n > kFew) return false;
+  Index next[kFew], prev[kFew];
+  for (std::size_t i = 0; i < n; ++i) {
+    const Index f = corners[i] / 3 * 3, c = corners[i] - f;
+    next[i] = soup.corner[f + (c == 2 ? 0 : c + 1)], prev[i] = soup.corner[f + (c == 0 ? 2 : c - 1)];
+  }
+  // Where no two faces have the same next or the same prev vertex, each follows at most one and is followed by at most
+  // one: they form rings and open fans, and an open fan ends with a face that nothing follows.
+  std::size_t follower[kFew], followed = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    follower[i] = n;
+    bool twice = false;
+    for (std::size_t j = 0; j < n; ++j) {
+      twice |= j != i && (next[j] == next[i] || prev[j] == prev[i]);
+      follower[i] = next[j] == prev[i] ? j : follower[i];
+    }
+    if (twice) return false;
+    followed += follower[i] < n;
+  }
+  if (followed + 1 < n) return false;
+  std::size_t first = 0;
+  if (followed < n) {
+    std::size_t sum = n * (n - 1) / 2;  // of all faces, less those that follow one: what follows none
+    for (std::size_t i = 0; i < n; ++i) sum -= follower[i] < n ? follower[i] : 0;
+    first = sum;
+  }
+  std::size_t seen = 0;
+  for (std::size_t at = first; seen < n && at < n; ++seen) {
+    at = follower[at];
+    if (at == first) return seen + 1 == n;
+  }
+  return seen == n;
+}
+
 struct Finding {
   Index crowded = kNone, direction = kNone, fan = kNone;  // smallest vertex of each kind of defect
 };
@@ -181,6 +220,7 @@ void check_stars(const Work& work, const Soup& soup) {
         Star star;
         for (std::size_t i = begin; i < end; ++i) {
           const Index v = static_cast<Index>(i);
+          if (is_plain_star(soup, corners.row(v))) continue;
           star.read(soup, corners.row(v));
           Index other = kNone;
           const Defect d = star.edge_defect(v, other);

@@ -12,10 +12,11 @@ namespace {
 
 // Adds the Max weight of face f seen from v.
 void add_weighted(const MeshView& mesh, Index f, Index v, Vec3& sum) {
-  const int i = mesh.corner_of(f, v);
+  const auto [i, j, k] = mesh.face(f);
   const Vec3 p = mesh.point(v);
-  const Vec3 a = mesh.point(mesh.corner[3 * std::size_t{f} + static_cast<std::size_t>((i + 1) % 3)]) - p;
-  const Vec3 b = mesh.point(mesh.corner[3 * std::size_t{f} + static_cast<std::size_t>((i + 2) % 3)]) - p;
+  const bool first = i == v, second = j == v;  // which of the corners is v cannot be predicted: no branches
+  const Vec3 a = mesh.point(first ? j : second ? k : i) - p;
+  const Vec3 b = mesh.point(first ? k : second ? i : j) - p;
   const Real w = a.squaredNorm() * b.squaredNorm();
   if (w > 0) sum += a.cross(b) / w;
 }
