@@ -66,7 +66,8 @@ struct LaneFits {
 
 // Fits 7 or 9 terms to the points of every lane, all of weight 1; points whose normal deviates more than `gate`
 // (cosine) do not take part. The centre itself must not be among a lane's points. Lanes that no entry names remain
-// unsolved. Requires: terms is 7 or 9; gate > 0; frames of lanes that entries name are set, the others finite; entries.point < points.size().
+// unsolved. Requires: terms is 7 or 9; gate > 0; frames of lanes that entries name are set, the others finite;
+// entries.point < points.size().
 void fit_ring_lanes(InstructionSet set, const LaneFrames& frames, std::span<const LanePoint> points,
                     std::span<const LaneEntry> entries, std::size_t terms, const FitOptions& options, LaneFits& fits);
 
