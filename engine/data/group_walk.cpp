@@ -146,6 +146,7 @@ void GroupWalker::collect_faces(int rings) {
   const Index* item = mesh_.vertex_faces.item.data();
   if (face_stamp_.empty()) face_stamp_.assign(mesh_.face_count(), 0);
   std::uint32_t* stamp = face_stamp_.data();
+  const std::uint32_t now = walk_, base = base_;
   Index size = 0;
   for (int k = 1; k <= rings; ++k) {
     const Index begin = k == 1 ? 0 : end_[static_cast<std::size_t>(k - 2)], end = end_[static_cast<std::size_t>(k - 1)];
@@ -158,8 +159,8 @@ void GroupWalker::collect_faces(int rings) {
       Index* list = faces_.data();
       const Index last = valence - 1;
       const auto meet = [&](Index f) {
-        const Index fresh = stamp[f] != walk_;
-        stamp[f] = walk_;
+        const Index fresh = stamp[f] != now;
+        stamp[f] = now;
         list[size] = f;
         size += fresh;
       };
@@ -174,9 +175,16 @@ void GroupWalker::collect_faces(int rings) {
   }
   face_rings_ = rings;
   make_room(face_places_, size);
-  for (Index i = 0; i < size; ++i)
-    for (std::size_t c = 0; c < 3; ++c)
-      face_places_[i][c] = std::min(vertex_stamp_[mesh_.corner[3 * std::size_t{faces_[i]} + c]] - base_, size_);
+  const Index* face = faces_.data();
+  const Index* corner = mesh_.corner.data();
+  const std::uint32_t* met = vertex_stamp_.data();
+  const Index none = size_;
+  std::array<Index, 3>* place = face_places_.data();
+  for (Index i = 0; i < size; ++i) {
+    const Index* c = corner + 3 * std::size_t{face[i]};
+    const Index p0 = met[c[0]] - base, p1 = met[c[1]] - base, p2 = met[c[2]] - base;
+    place[i] = {std::min(p0, none), std::min(p1, none), std::min(p2, none)};
+  }
 }
 
 std::span<const GroupWalker::Mask> GroupWalker::face_within(int k) {

@@ -218,7 +218,8 @@ LevelBuild build_sample_levels(const Work& work, const MeshView& mesh, std::span
     for (Real s : top.spacing) finest = std::min(finest, s);
     graph = top.neighbours;
     point = top.centre;
-    if (3.2 * SampleLevels::cell(l + 1, finest) > max_radius) break;
+    // The last level serves no disc: those that share samples are below its clusters.
+    if (3.2 * SampleLevels::cell(l, finest) > max_radius) break;
   }
   return build;
 }

@@ -20,7 +20,7 @@ struct LevelBuild {
   std::vector<std::vector<Tensor>> tensor;  // per level, per cluster: sum of A n n^T
 };
 
-// Levels for discs up to `max_radius`; fewer where a level would not shrink the one below.
+// Levels for discs up to `max_radius` and one above them; fewer where a level would not shrink the one below.
 LevelBuild build_sample_levels(const Work& work, const MeshView& mesh, std::span<const VotingFace> faces,
                                Real max_radius);
 
