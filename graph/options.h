@@ -62,6 +62,7 @@ struct LayoutOptions {
   bool barrier = true;     // fits do not cross sharp edges
   kernels::SharpOptions sharp;
   kernels::ScaleOptions scale;
+  int fixed_ring = 0;  // 1 .. 6: every vertex is fitted in this ring, to show what the choice is for; 0 = chosen
   kernels::CurvatureOptions curvature;
   kernels::RidgeOptions ridges;
   kernels::CurveOptions curves;

@@ -18,6 +18,7 @@ void visit_options(Options& o, V&& v) {
   v("scale.slack", o.scale.select.slack, "a smaller ring wins within this distance of omega_+", 0.0, 1.0);
   v("scale.discs", o.scale.discs, "look beyond six rings where they are flat", 0, 1);
   v("scale.largest-disc", o.scale.largest_disc, "largest disc looked at, diagonals", 0.001, 0.15);
+  v("scale.fixed", o.fixed_ring, "the same ring for every vertex; 0 = chosen for each", 0, 6);
   v("fit.normal-gate", o.curvature.fit.normal_gate, "least cosine between normals of a fit point", 0.0, 1.0);
   v("fit.refine-normals", o.curvature.fit.refine_normals, "second pass of normals before the fit", 0, 1);
   v("fit.anisotropy", o.curvature.anisotropy, "least relative difference of principal curvatures", 0.0, 1.0);
@@ -35,6 +36,7 @@ void visit_options(Options& o, V&& v) {
   v("network.quality-budget", o.choice.quality_budget, "the same for --subdivide quality", 0.0, 4.0);
   v("network.snap", o.snap.snap, "edge points nearer to a vertex than this share of the edge move there", 0.0, 0.5);
   v("extend.cone", o.extension.cone, "degrees between the ideal direction and a step", 10.0, 90.0);
+  v("extend.history", o.extension.history, "points whose principal directions are averaged (m)", 1, 50);
   v("extend.feedback", o.extension.feedback, "pull towards the ideal curve (kappa)", 0.0, 4.0);
   v("extend.max-length", o.extension.max_length, "longest extension of an end, diagonals", 0.0, 10.0);
   v("extend.meet", o.extension.meet, "mean edges at which a curve ends on another", 1.0, 10.0);

@@ -8,14 +8,19 @@
 #include "graph/layout_graph.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
+#include "tools/features_picture.h"
+#include "tools/picture/png_file.h"
 #include "tools/stage_command.h"
+#include "tools/view_flag.h"
 #include "tools/write_result.h"
 
 namespace intarsia::tools {
 namespace {
 
 struct FeaturesFlags {
-  std::string input, output;
+  std::string input, output, picture;
+  std::vector<Index> vertices;
+  std::vector<double> view;
   CommonFlags common;
   OptionFlags method;
 };
@@ -66,10 +71,11 @@ int features(const FeaturesFlags& flags) {
   options.scale.keep_variation = true;
   StageCommand command("features", flags.input, flags.common);
   const graph::FeaturePorts ports = graph::add_feature_stages(command.flow(), command.soup(), options);
-  const auto write = [path = std::filesystem::path(flags.output)](
-                         const Work& work, const Soup& s, const graph::Surface& surface, const graph::Scale& scale,
-                         const graph::Curvature& curvature) {
-    return write_fields(work, path, s, surface, scale, curvature);
+  const auto write = [&flags](const Work& work, const Soup& s, const graph::Surface& surface, const graph::Scale& scale,
+                              const graph::Curvature& curvature) {
+    if (!flags.picture.empty())
+      write_png(flags.picture, draw_scales(work, surface, scale, flags.vertices, chosen_view(flags.view)));
+    return write_fields(work, flags.output, s, surface, scale, curvature);
   };
   using WriteStage = Stage<Written, Soup, graph::Surface, graph::Scale, graph::Curvature>;
   add_stage(command.flow(), WriteStage{"write", 1, 0, write, {}, 0.5}, command.soup(), ports.surface, ports.scale,
@@ -86,6 +92,9 @@ void add_features_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("features", "per-vertex fields: surface variation, curvature, extremality");
   command->add_option("input", flags->input, "mesh: .ply .obj .stl .off")->required();
   command->add_option("-o,--output", flags->output, "fields as a binary PLY file")->required();
+  command->add_option("--picture", flags->picture, "also draw the chosen rings into this PNG file");
+  command->add_option("--vertices", flags->vertices, "vertices to mark there, with A, B, C ...")->delimiter(',');
+  add_view_flag(*command, flags->view);
   add_common_flags(*command, flags->common);
   flags->method.add_to(*command);
   command->callback([flags, &exit_code] { exit_code = features(*flags); });
