@@ -92,6 +92,7 @@ std::uint64_t hash_of(const Ridges& a) { return hash_fields(a); }
 std::uint64_t hash_of(const Curves& a) { return hash_fields(a); }
 std::uint64_t hash_of(const Network& a) { return hash_fields(a); }
 std::uint64_t hash_of(const Patches& a) { return hash_fields(a); }
+std::uint64_t hash_of(const Smoothing& a) { return hash_fields(a); }
 std::uint64_t hash_of(const Layout& a) { return hash_fields(a); }
 
 std::size_t bytes_of(const Surface& a) { return size_fields(a); }
@@ -102,6 +103,7 @@ std::size_t bytes_of(const Ridges& a) { return size_fields(a); }
 std::size_t bytes_of(const Curves& a) { return size_fields(a); }
 std::size_t bytes_of(const Network& a) { return size_fields(a); }
 std::size_t bytes_of(const Patches& a) { return size_fields(a); }
+std::size_t bytes_of(const Smoothing& a) { return size_fields(a); }
 std::size_t bytes_of(const Layout& a) { return size_fields(a); }
 
 std::size_t items_of(const Surface& a) { return a.mesh.face_count(); }
@@ -112,6 +114,7 @@ std::size_t items_of(const Ridges& a) { return a.curves.curve_count(); }
 std::size_t items_of(const Curves& a) { return a.curves.curve_count(); }
 std::size_t items_of(const Network& a) { return a.patches; }
 std::size_t items_of(const Patches& a) { return a.labels.count; }
+std::size_t items_of(const Smoothing& a) { return a.graph.arc_count(); }
 std::size_t items_of(const Layout& a) { return a.labels.count; }
 
 }  // namespace intarsia::graph

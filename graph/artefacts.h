@@ -15,6 +15,8 @@
 #include "engine/data/patch_labels.h"
 #include "engine/run/record.h"
 #include "kernels/layout/check_layout.h"
+#include "kernels/layout/match_labels.h"
+#include "kernels/layout/smooth_boundaries.h"
 #include "kernels/ridges/sharp_edges.h"
 #include "kernels/scale/compute_scale.h"
 #include "kernels/surface/canonical_order.h"
@@ -35,8 +37,7 @@ struct Surface {
   Mesh mesh;
   kernels::SurfaceOrder order;  // canonical -> input numbers
   kernels::BoxTransform box;
-  Vec3Array face_normal;    // unit, 0 for faces without area
-  Vec3Array vertex_normal;  // Max 1999
+  Vec3Array face_normal;  // unit, 0 for faces without area
   Real area = 0;
   Real mean_edge = 0;             // h
   bool single_precision = false;  // every input coordinate is a float: flat parts carry its rounding
@@ -88,7 +89,19 @@ struct Patches {
   std::vector<std::string> warnings;
 };
 
-// patches -> layout: smoothed borders, embedded in the surface again, as a graph; checked.
+// patches -> smoothing: where the borders of the patches are to go, and all that is still wanted of the network: its
+// refined mesh may be freed before the next one is made.
+struct Smoothing {
+  LayoutGraph graph;            // of the patches as they came, on the network's refined mesh
+  kernels::SmoothedArcs arcs;   // their smoothed places
+  kernels::LabelShares shares;  // the patches on the faces of the surface
+  std::vector<Real> error;      // reconstruction error per patch; empty if smoothing is not guarded
+  CurveNetwork interior;        // chosen features that separate nothing, on the surface's mesh
+  RefinedMesh refined;          // the network's, without its mesh
+  Network network;              // the network again; of its refined mesh only the edges that carry it, for pictures
+};
+
+// smoothing -> layout: smoothed borders, embedded in the surface again, as a graph; checked.
 struct Layout {
   RefinedMesh refined;
   PatchLabels labels;  // per refined face
@@ -113,6 +126,7 @@ std::uint64_t hash_of(const Ridges& a);
 std::uint64_t hash_of(const Curves& a);
 std::uint64_t hash_of(const Network& a);
 std::uint64_t hash_of(const Patches& a);
+std::uint64_t hash_of(const Smoothing& a);
 std::uint64_t hash_of(const Layout& a);
 
 std::size_t bytes_of(const Surface& a);
@@ -123,6 +137,7 @@ std::size_t bytes_of(const Ridges& a);
 std::size_t bytes_of(const Curves& a);
 std::size_t bytes_of(const Network& a);
 std::size_t bytes_of(const Patches& a);
+std::size_t bytes_of(const Smoothing& a);
 std::size_t bytes_of(const Layout& a);
 
 std::size_t items_of(const Surface& a);    // faces
@@ -133,6 +148,7 @@ std::size_t items_of(const Ridges& a);     // curves
 std::size_t items_of(const Curves& a);     // curves
 std::size_t items_of(const Network& a);    // patches
 std::size_t items_of(const Patches& a);    // patches
+std::size_t items_of(const Smoothing& a);  // arcs
 std::size_t items_of(const Layout& a);     // patches
 
 }  // namespace intarsia::graph

@@ -83,11 +83,17 @@ BaselinePorts add_baseline_stages(Flow& flow, const Port<Soup>& soup, const Layo
   };
   p.patches = add_stage(flow, Stage<Patches, Soup, Surface, Network>{"patches", 1, hash.value(), patches, {}, 4}, soup,
                         p.features.surface, p.network);
-  const auto layout = [options](const Work& w, const Surface& s, const Curvature& k, const Network& n,
-                                const Patches& q) { return patches_to_layout(w, s, k, n, q, options); };
-  p.layout =
-      add_stage(flow, Stage<Layout, Surface, Curvature, Network, Patches>{"layout", 1, hash.value(), layout, {}, 1},
-                p.features.surface, p.features.curvature, p.network, p.patches);
+  const auto smoothing = [options](const Work& w, const Surface& s, const Curvature& k, const Network& n,
+                                   const Patches& q) { return patches_to_smoothing(w, s, k, n, q, options); };
+  using SmoothingStage = Stage<Smoothing, Surface, Curvature, Network, Patches>;
+  const Port<Smoothing> smoothed =
+      add_stage(flow, SmoothingStage{"layout", 1, hash.value(), smoothing, "smoothing", 0.3}, p.features.surface,
+                p.features.curvature, p.network, p.patches);
+  const auto layout = [options](const Work& w, const Surface& s, const Smoothing& a) {
+    return smoothing_to_layout(w, s, a, options);
+  };
+  p.layout = add_stage(flow, Stage<Layout, Surface, Smoothing>{"layout", 1, hash.value(), layout, {}, 0.7},
+                       p.features.surface, smoothed);
   return p;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/parallel/for_each.h"
 #include "graph/stages.h"
 #include "kernels/network/embed_curves.h"
 #include "kernels/network/extend_curves.h"
@@ -26,12 +27,18 @@ class Choice {
       if (net.kind[c] == CurveKind::sharp)
         for (Index p : net.curve.row(c)) on_sharp[net.point[p].element] = 1;
     snap_curves(work, surface.mesh, on_sharp, options.snap, net);
-    embedding_ = embed_curves(work, surface.mesh, net);
     field_ = direction_field(work, surface.mesh, curvature.fields, options.direction);
     normal_ = curvature.fields.normal;
-    level_.assign(embedding_.refined.mesh.edge_count(), -1);
-    for (std::size_t i = 0; i < embedding_.edge.size(); ++i)
-      level_[embedding_.edge[i]] = std::max(level_[embedding_.edge[i]], level_of(embedding_.edge_curve[i]));
+    embedding_ = embed_curves(work, surface.mesh, net);
+    patches_ = make_patch_surface(work, embedding_.refined, surface.face_normal, surface.mean_edge,
+                                  options.subdivide.hole_length);
+    for (std::size_t i = 0; i < embedding_.edge.size(); ++i) {  // ascending, one entry for each curve on an edge
+      const Real level = level_of(embedding_.edge_curve[i]);
+      if (edge_.empty() || edge_.back() != embedding_.edge[i])
+        edge_.push_back(embedding_.edge[i]), level_.push_back(level);
+      else
+        level_.back() = std::max(level_.back(), level);
+    }
   }
 
   struct Result {
@@ -45,14 +52,14 @@ class Choice {
     const Terrain terrain(refined, normal_, field_, surface_.mesh.vertex_count(), surface_.mean_edge);
     Result r;
     r.active.resize(refined.mesh.edge_count());
-    for (Index e = 0; e < r.active.size(); ++e)
-      r.active[e] = refined.mesh.edge_f1[e] == kNone || level_[e] >= threshold ? 1 : 0;
+    for_each(work_, Cost::light, r.active.size(),
+             [&](std::size_t e) { r.active[e] = refined.mesh.edge_f1[e] == kNone ? 1 : 0; });
+    for (std::size_t i = 0; i < edge_.size(); ++i)
+      if (level_[i] >= threshold) r.active[edge_[i]] = 1;
     r.extension = extend_curves(work_, refined, r.active, terrain, options_.extension);
     for (Index e : r.extension.edge) r.active[e] = 1;
     prune_ends(work_, refined.mesh, r.active);
-    const PatchSurface patches =
-        make_patch_surface(work_, refined, surface_.face_normal, surface_.mean_edge, options_.subdivide.hole_length);
-    r.patches = count_after_merge(work_, patches, r.active, options_.subdivide.merge);
+    r.patches = count_after_merge(work_, patches_, r.active, options_.subdivide.merge);
     return r;
   }
 
@@ -86,12 +93,12 @@ class Choice {
     }
     n.features.point = candidates_.net.point;
     n.features.strength = candidates_.net.strength;
-    for (Index e = 0; e < level_.size(); ++e)
-      if (level_[e] >= threshold) n.feature_edge.push_back(e);
+    for (std::size_t i = 0; i < edge_.size(); ++i)
+      if (level_[i] >= threshold) n.feature_edge.push_back(edge_[i]);
     n.refined = std::move(embedding_.refined);
     for (Index e : r.extension.edge)
-      if (!n.refined.on_network[e] || level_[e] < threshold)
-        n.refined.edge_kind[e] = CurveKind::extension, n.refined.edge_strength[e] = 0;
+      if (!n.refined.on_network[e] || !std::binary_search(n.feature_edge.begin(), n.feature_edge.end(), e))
+        n.refined.edge_kind[e] = CurveKind::extension, n.refined.edge_strength.set(e, 0);
     n.refined.on_network = std::move(r.active);
     return n;
   }
@@ -112,7 +119,9 @@ class Choice {
   Embedding embedding_;
   DirectionField field_;
   Vec3View normal_;
-  std::vector<Real> level_;  // per refined edge: saliency of its component; -1 without a curve
+  PatchSurface patches_;
+  std::vector<Index> edge_;  // refined edges that carry curves, ascending
+  std::vector<Real> level_;  // and the saliency of the component, the largest of them
 };
 
 }  // namespace

@@ -14,13 +14,12 @@ Network empty_network(const Work& work, const Surface& surface) {
   r.mesh = surface.mesh;
   r.parent.resize(r.mesh.face_count());
   std::iota(r.parent.begin(), r.parent.end(), Index{0});
-  r.origin.resize(r.mesh.vertex_count());
-  for_each(work, Cost::light, r.origin.size(),
-           [&](std::size_t v) { r.origin[v] = SurfacePoint::at_vertex(static_cast<Index>(v)); });
+  r.mesh.vertex_vertices = {};
+  r.origin = VertexOrigins(r.mesh.vertex_count(), {});
   const MeshView mesh = r.mesh;
   r.on_network.resize(mesh.edge_count());
   r.edge_kind.assign(mesh.edge_count(), CurveKind::border);
-  r.edge_strength.assign(mesh.edge_count(), 0);
+  r.edge_strength.resize(mesh.edge_count());
   for_each(work, Cost::light, mesh.edge_count(),
            [&](std::size_t e) { r.on_network[e] = mesh.edge_f1[e] == kNone ? 1 : 0; });
   n.patches = kernels::flood_patches(work, mesh, r.on_network).count;

@@ -53,8 +53,8 @@ void walk(const CurvatureFields& a, V& v) {
 
 template <class V>
 void walk(const RefinedMesh& a, V& v) {
-  walk(a.mesh, v), v.array(a.parent), walk(a.origin, v), v.array(a.on_network), v.array(a.edge_kind);
-  v.array(a.edge_strength);
+  walk(a.mesh, v), v.array(a.parent), v.scalar(a.origin.originals()), walk(a.origin.added(), v);
+  v.array(a.on_network), v.array(a.edge_kind), v.array(a.edge_strength.edges()), v.array(a.edge_strength.values());
 }
 
 template <class V>
@@ -71,7 +71,7 @@ void walk(const LayoutGraph& a, V& v) {
 
 template <class V>
 void walk(const Surface& a, V& v) {
-  walk(a.mesh, v), v.array(a.order.vertex), v.array(a.order.face), walk(a.face_normal, v), walk(a.vertex_normal, v);
+  walk(a.mesh, v), v.array(a.order.vertex), v.array(a.order.face), walk(a.face_normal, v);
   v.scalar(a.area), v.scalar(a.mean_edge);
 }
 
@@ -108,6 +108,14 @@ void walk(const Network& a, V& v) {
 template <class V>
 void walk(const Patches& a, V& v) {
   walk(a.labels, v), v.array(a.on_network), v.array(a.edge_kind);
+}
+
+template <class V>
+void walk(const Smoothing& a, V& v) {
+  walk(a.graph, v), walk(a.arcs.node, v), v.array(a.arcs.node_fixed), v.array(a.arcs.offset), walk(a.arcs.point, v);
+  v.array(a.arcs.fixed), v.array(a.shares.whole), v.array(a.shares.face), v.array(a.shares.offset);
+  v.array(a.shares.label), v.array(a.shares.share), v.array(a.error), walk(a.interior, v);
+  walk(a.refined, v), walk(a.network, v);
 }
 
 template <class V>

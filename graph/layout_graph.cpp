@@ -81,10 +81,16 @@ LayoutPorts add_layout_stages(Flow& flow, const Port<Soup>& soup, const LayoutOp
   };
   p.patches = add_stage(flow, Stage<Patches, Surface, Network>{"patches", 1, hash, patches, {}, 1}, surface, p.network);
 
-  const auto layout = [options](const Work& w, const Surface& s, const Curvature& k, const Network& n,
-                                const Patches& q) { return patches_to_layout(w, s, k, n, q, options); };
-  p.layout = add_stage(flow, Stage<Layout, Surface, Curvature, Network, Patches>{"layout", 1, hash, layout, {}, 1},
-                       surface, curvature, p.network, p.patches);
+  const auto smoothing = [options](const Work& w, const Surface& s, const Curvature& k, const Network& n,
+                                   const Patches& q) { return patches_to_smoothing(w, s, k, n, q, options); };
+  p.smoothing = add_stage(
+      flow, Stage<Smoothing, Surface, Curvature, Network, Patches>{"layout", 1, hash, smoothing, "smoothing", 0.3},
+      surface, curvature, p.network, p.patches);
+  const auto layout = [options](const Work& w, const Surface& s, const Smoothing& a) {
+    return smoothing_to_layout(w, s, a, options);
+  };
+  p.layout =
+      add_stage(flow, Stage<Layout, Surface, Smoothing>{"layout", 1, hash, layout, {}, 0.7}, surface, p.smoothing);
   return p;
 }
 

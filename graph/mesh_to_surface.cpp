@@ -13,7 +13,6 @@ Surface mesh_to_surface(const Work& work, const Soup& soup) {
   s.order = kernels::canonical_order(work, soup, s.box, s.mesh);
   connect_mesh(work, s.mesh);
   kernels::FaceGeometry faces = kernels::face_geometry(work, s.mesh);
-  s.vertex_normal = kernels::vertex_normals(work, s.mesh, faces);
   s.area = sum(work, Cost::light, faces.area.size(), 0.0, [&](std::size_t f) { return faces.area[f]; });
   s.face_normal = std::move(faces.normal);
   s.mean_edge = kernels::mean_edge_length(work, s.mesh);

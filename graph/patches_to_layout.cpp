@@ -1,7 +1,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "engine/parallel/for_each.h"
+#include "engine/parallel/compact.h"
+#include "engine/parallel/sort.h"
 #include "graph/stages.h"
 #include "kernels/cells/grouping.h"
 #include "kernels/layout/match_labels.h"
@@ -25,17 +26,17 @@ struct Embedded {
 };
 
 // Smoothed arcs that would break the layout go back to the chains they were traced from; if that does not help, all do.
-Embedded embed_smoothed(const Work& work, const Surface& surface, const Network& network, const PatchLabels& old,
-                        const LayoutGraph& graph, const SmoothedArcs& smoothed, std::vector<std::uint8_t> keep,
+Embedded embed_smoothed(const Work& work, const Surface& surface, const Smoothing& old, std::vector<std::uint8_t> keep,
                         const CrossOptions& options) {
+  const LayoutGraph& graph = old.graph;
   constexpr int kAttempts = 4;
   for (int attempt = 0;; ++attempt) {
     if (attempt == kAttempts) std::fill(keep.begin(), keep.end(), 1);
-    const CrossedArcs crossed = cross_edges(work, surface.mesh, network.refined, graph, smoothed, keep, options);
+    const CrossedArcs crossed = cross_edges(work, surface.mesh, old.refined, graph, old.arcs, keep, options);
     Embedding e = embed_curves(work, surface.mesh, crossed.network);
     PatchLabels fresh = flood_patches(work, e.refined.mesh, e.refined.on_network);
-    const LabelMatch match = match_labels(work, surface.mesh, network.refined, old.patch_of_face, old.count, e.refined,
-                                          fresh.patch_of_face, fresh.count);
+    const LabelMatch match =
+        match_labels(work, surface.mesh, old.shares, graph.patch_count(), e.refined, fresh.patch_of_face, fresh.count);
     std::vector<Index> trouble = match.trouble;
     if (match.ok) {
       for_each(work, Cost::light, fresh.patch_of_face.size(),
@@ -109,31 +110,69 @@ CurveNetwork interior_curves(const Work& work, const Network& network, const Pat
   return interior;
 }
 
+// What pictures and reports show of the network: its curves' edges alone carry the mesh.
+Network outline_of(const Work& work, const Network& network) {
+  Network out;
+  out.features = network.features, out.feature_concave = network.feature_concave;
+  out.min_saliency = network.min_saliency, out.patches = network.patches;
+  out.ends = network.ends, out.met = network.met, out.bridged = network.bridged, out.dead = network.dead;
+  const RefinedMesh& from = network.refined;
+  const MeshView mesh = from.mesh;
+  const std::vector<Index> edge = compact(work, mesh.edge_count(), [&](std::size_t e) { return from.on_network[e]; });
+  std::vector<Index> vertex;
+  for (const Index e : edge) vertex.push_back(mesh.edge_v0[e]), vertex.push_back(mesh.edge_v1[e]);
+  sort_total(work, vertex.begin(), vertex.end());
+  vertex.erase(std::unique(vertex.begin(), vertex.end()), vertex.end());
+  Mesh& to = out.refined.mesh;
+  for (const Index v : vertex) to.x.push_back(mesh.x[v]), to.y.push_back(mesh.y[v]), to.z.push_back(mesh.z[v]);
+  const auto place = [&](Index v) {
+    return static_cast<Index>(std::lower_bound(vertex.begin(), vertex.end(), v) - vertex.begin());
+  };
+  for (const Index e : edge) {
+    to.edge_v0.push_back(place(mesh.edge_v0[e])), to.edge_v1.push_back(place(mesh.edge_v1[e]));
+    out.refined.on_network.push_back(1), out.refined.edge_kind.push_back(from.edge_kind[e]);
+  }
+  return out;
+}
+
 }  // namespace
 
-Layout patches_to_layout(const Work& work, const Surface& surface, const Curvature& curvature, const Network& network,
-                         const Patches& patches, const LayoutOptions& options) {
-  const PatchLabels& old = patches.labels;
-  const LayoutGraph rough = trace_boundaries(work, network.refined, old.patch_of_face, old.count);
-  const SmoothedArcs smoothed = smooth_boundaries(work, surface.mesh, network.refined, rough, old.patch_of_face,
-                                                  curvature.fields, options.smooth);
-  std::vector<std::uint8_t> keep(rough.arc_count(), 0);
-  std::vector<Real> before;
+Smoothing patches_to_smoothing(const Work& work, const Surface& surface, const Curvature& curvature,
+                               const Network& network, const Patches& patches, const LayoutOptions& options) {
+  const RefinedMesh& refined = network.refined;
+  const PatchLabels& labels = patches.labels;
+  Smoothing s;
+  s.graph = trace_boundaries(work, refined, labels.patch_of_face, labels.count);
+  s.arcs =
+      smooth_boundaries(work, surface.mesh, refined, s.graph, labels.patch_of_face, curvature.fields, options.smooth);
+  s.shares = label_shares(work, surface.mesh, refined, labels.patch_of_face);
+  if (options.guard_smoothing)
+    s.error = patch_errors(work, surface, refined, labels, s.graph, options.check.hole_length);
+  s.interior = interior_curves(work, network, labels);
+  s.refined.origin = refined.origin;
+  s.refined.on_network = refined.on_network, s.refined.edge_strength = refined.edge_strength;
+  s.network = outline_of(work, network);
+  return s;
+}
+
+Layout smoothing_to_layout(const Work& work, const Surface& surface, const Smoothing& smoothing,
+                           const LayoutOptions& options) {
+  std::vector<std::uint8_t> keep(smoothing.graph.arc_count(), 0);
   Layout layout;
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
-    Embedded e = embed_smoothed(work, surface, network, old, rough, smoothed, keep, options.cross);
+    layout = {};
+    Embedded e = embed_smoothed(work, surface, smoothing, keep, options.cross);
     layout.refined = std::move(e.refined);
     layout.labels = std::move(e.labels);
     layout.kept_chains = e.kept_chains;
     layout.graph = trace_boundaries(work, layout.refined, layout.labels.patch_of_face, layout.labels.count);
     if (!options.guard_smoothing || round + 1 == kRounds) break;
-    const Real hole = options.check.hole_length;
-    if (round == 0) before = patch_errors(work, surface, network.refined, old, rough, hole);
-    const std::vector<Index> spoilt =
-        spoilt_patches(before, patch_errors(work, surface, layout.refined, layout.labels, layout.graph, hole));
+    const std::vector<Index> spoilt = spoilt_patches(
+        smoothing.error,
+        patch_errors(work, surface, layout.refined, layout.labels, layout.graph, options.check.hole_length));
     if (spoilt.empty()) break;
-    const std::vector<std::uint8_t> more = arcs_of_patches(rough, spoilt);
+    const std::vector<std::uint8_t> more = arcs_of_patches(smoothing.graph, spoilt);
     for (std::size_t a = 0; a < keep.size(); ++a) keep[a] |= more[a];
   }
   const PatchSurface measured =
@@ -142,8 +181,14 @@ Layout patches_to_layout(const Work& work, const Surface& surface, const Curvatu
   layout.checks = check_layout(work, surface.mesh, layout.refined, layout.labels.patch_of_face, layout.labels.count,
                                layout.graph, options.check);
   layout.face_patch = patch_of_original_faces(work, surface.mesh, layout.refined, layout.labels.patch_of_face);
-  layout.interior = interior_curves(work, network, old);
+  layout.interior = smoothing.interior;
   return layout;
+}
+
+Layout patches_to_layout(const Work& work, const Surface& surface, const Curvature& curvature, const Network& network,
+                         const Patches& patches, const LayoutOptions& options) {
+  return smoothing_to_layout(work, surface, patches_to_smoothing(work, surface, curvature, network, patches, options),
+                             options);
 }
 
 }  // namespace intarsia::graph

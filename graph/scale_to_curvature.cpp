@@ -14,8 +14,9 @@ Curvature scale_to_curvature(const Work& work, const Surface& surface, const Sca
   kernels::CurvatureOptions fit = options.curvature;
   constexpr Real kFloatTurn = 1e-4;  // radians: what float coordinates turn a plane by, a few rings wide
   if (surface.single_precision) fit.flat_turn = std::max(fit.flat_turn, kFloatTurn);
-  return {kernels::compute_curvature(work, surface.mesh, surface.vertex_normal, scale.fields.fit_ring,
-                                     scale.fields.levels, barrier, fit)};
+  const Vec3Array normal = kernels::vertex_normals(work, surface.mesh, kernels::face_geometry(work, surface.mesh));
+  return {
+      kernels::compute_curvature(work, surface.mesh, normal, scale.fields.fit_ring, scale.fields.levels, barrier, fit)};
 }
 
 }  // namespace intarsia::graph

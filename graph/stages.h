@@ -30,6 +30,11 @@ Patches network_to_patches(const Work& work, const Surface& surface, const Netwo
 // With that many already only borders are refined. Requires: options.form is not faithful.
 Patches improve_patches(const Work& work, const Surface& surface, const Network& network, const PatchLabels& start,
                         const LayoutOptions& options);
+Smoothing patches_to_smoothing(const Work& work, const Surface& surface, const Curvature& curvature,
+                               const Network& network, const Patches& patches, const LayoutOptions& options);
+Layout smoothing_to_layout(const Work& work, const Surface& surface, const Smoothing& smoothing,
+                           const LayoutOptions& options);
+// Both.
 Layout patches_to_layout(const Work& work, const Surface& surface, const Curvature& curvature, const Network& network,
                          const Patches& patches, const LayoutOptions& options);
 

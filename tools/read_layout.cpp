@@ -140,7 +140,7 @@ void trace_labels(const Work& work, const std::vector<Index>& label, LayoutFromF
   layout.label = labels.patch_of_face;
   refined.on_network.resize(mesh.edge_count());
   refined.edge_kind.resize(mesh.edge_count());
-  refined.edge_strength.assign(mesh.edge_count(), 0);
+  refined.edge_strength.resize(mesh.edge_count());
   for_each(work, Cost::light, mesh.edge_count(), [&](std::size_t i) {
     const Index e = static_cast<Index>(i);
     const bool boundary = mesh.is_boundary_edge(e);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/data/csr.h"
+#include "engine/data/refined_arrays.h"
 #include "engine/data/surface_point.h"
 
 namespace intarsia {
@@ -14,9 +15,9 @@ enum class CurveKind : std::uint8_t { ridge = 0, valley = 1, sharp = 2, border =
 
 struct CurveNetwork {
   std::vector<SurfacePoint> point;
-  Csr curve;                        // curve -> point indices in order (not ascending); a closed curve repeats its first
-  std::vector<CurveKind> kind;      // per curve
-  std::vector<Real> strength;       // per point: turn angle theta in radians, 0 where unknown
+  Csr curve;                    // curve -> point indices in order (not ascending); a closed curve repeats its first
+  std::vector<CurveKind> kind;  // per curve
+  std::vector<Real> strength;   // per point: turn angle theta in radians, 0 where unknown
 
   Index curve_count() const { return curve.rows(); }
   bool is_closed(Index c) const {
@@ -33,12 +34,12 @@ struct CurveNetwork {
 
 // A refinement of a mesh whose edges carry curves. Every refined face lies inside one face of the original mesh.
 struct RefinedMesh {
-  Mesh mesh;                          // vertices 0 .. n-1 are the original ones, in order
-  std::vector<Index> parent;          // refined face -> original face
-  std::vector<SurfacePoint> origin;   // refined vertex -> where it sits on the original mesh
-  std::vector<std::uint8_t> on_network;     // per refined edge: 1 if it carries a curve or lies on the boundary
-  std::vector<CurveKind> edge_kind;   // per refined edge; meaningless where on_network is 0
-  std::vector<Real> edge_strength;    // per refined edge: turn angle of the feature it carries, 0 elsewhere
+  Mesh mesh;                             // vertices 0 .. n-1 are the original ones, in order; no vertex_vertices
+  std::vector<Index> parent;             // refined face -> original face
+  VertexOrigins origin;                  // refined vertex -> where it sits on the original mesh
+  std::vector<std::uint8_t> on_network;  // per refined edge: 1 if it carries a curve or lies on the boundary
+  std::vector<CurveKind> edge_kind;      // per refined edge; meaningless where on_network is 0
+  EdgeStrengths edge_strength;           // per refined edge: turn angle of the feature it carries, 0 elsewhere
 };
 
 }  // namespace intarsia

@@ -42,9 +42,8 @@ Buckets bucket_half_edges(const Work& work, const Mesh& mesh) {
     const Index at = std::atomic_ref<Index>(cursor[h.low()]).fetch_add(1, std::memory_order_relaxed);
     b.key[at] = (std::uint64_t{h.high()} << 32) | c;
   });
-  for_each(work, Cost::light, mesh.vertex_count(), [&](std::size_t v) {
-    std::sort(b.key.begin() + b.offset[v], b.key.begin() + b.offset[v + 1]);
-  });
+  for_each(work, Cost::light, mesh.vertex_count(),
+           [&](std::size_t v) { sort_short(b.key.begin() + b.offset[v], b.key.begin() + b.offset[v + 1]); });
   return b;
 }
 
@@ -91,16 +90,21 @@ void write_edges(const Work& work, const Buckets& b, Mesh& mesh) {
       [](Index a, Index c) { return std::min(a, c); });
   if (bad != kNone)
     throw Error(ErrorCode::rejected,
-                "face " + std::to_string(bad) + " has an edge with more than two faces or a neighbour turned over", bad);
+                "face " + std::to_string(bad) + " has an edge with more than two faces or a neighbour turned over",
+                bad);
 }
 
 }  // namespace
 
-void connect_mesh(const Work& work, Mesh& mesh) {
+void connect_faces(const Work& work, Mesh& mesh) {
   write_edges(work, bucket_half_edges(work, mesh), mesh);
   mesh.vertex_faces = build_csr(
       work, mesh.vertex_count(), mesh.corner.size(), [&](std::size_t c) { return mesh.corner[c]; },
       [](std::size_t c) { return static_cast<Index>(c / 3); });
+}
+
+void connect_mesh(const Work& work, Mesh& mesh) {
+  connect_faces(work, mesh);
   mesh.vertex_vertices = build_csr(
       work, mesh.vertex_count(), std::size_t{mesh.edge_count()} * 2,
       [&](std::size_t i) { return i % 2 ? mesh.edge_v1[i / 2] : mesh.edge_v0[i / 2]; },

@@ -13,4 +13,7 @@ namespace intarsia {
 // the same direction.
 void connect_mesh(const Work& work, Mesh& mesh);
 
+// The same without vertex_vertices, which stays empty.
+void connect_faces(const Work& work, Mesh& mesh);
+
 }  // namespace intarsia

@@ -107,10 +107,16 @@ std::int64_t euler_of(const Work& work, const MeshView& mesh) {
 std::vector<std::int64_t> open_euler(const Work& work, const MeshView& mesh, std::span<const Index> label,
                                      Index patches) {
   const auto one = [](std::size_t) { return std::int64_t{1}; };
+  std::vector<std::uint8_t> outer(mesh.vertex_count(), 0);
+  for_each(work, Cost::light, mesh.edge_count(), [&](std::size_t e) {
+    if (mesh.edge_f1[e] != kNone) return;
+    for (const Index v : {mesh.edge_v0[e], mesh.edge_v1[e]})
+      std::atomic_ref<std::uint8_t>(outer[v]).store(1, std::memory_order_relaxed);
+  });
   const auto inner_patch_of_vertex = [&](std::size_t i) {
     const Index v = static_cast<Index>(i);
     const auto faces = mesh.vertex_faces.row(v);
-    if (faces.empty() || faces.size() != mesh.vertex_vertices.row(v).size()) return kNone;
+    if (faces.empty() || outer[v]) return kNone;
     for (Index f : faces)
       if (label[f] != label[faces[0]]) return kNone;
     return label[faces[0]];

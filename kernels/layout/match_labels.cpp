@@ -43,18 +43,24 @@ void shares_of(const MeshView& original, const RefinedMesh& refined, std::span<c
 }
 
 // Sums of common area, ascending by (new, old).
-std::vector<Overlap> overlaps(const Work& work, const MeshView& original, const RefinedMesh& old_refined,
-                              std::span<const Index> old_label, const RefinedMesh& new_refined,
-                              std::span<const Index> new_label) {
-  const Csr old_children = children_of_parents(work, original.face_count(), old_refined);
+std::vector<Overlap> overlaps(const Work& work, const MeshView& original, const LabelShares& old,
+                              const RefinedMesh& new_refined, std::span<const Index> new_label) {
   const Csr new_children = children_of_parents(work, original.face_count(), new_refined);
   std::vector<std::vector<Overlap>> by_block(block_count(Cost::light, original.face_count()));
   for_each_block(work, Cost::light, original.face_count(), [&](std::size_t begin, std::size_t end, std::size_t b) {
     std::vector<Share> old_share, new_share;
     std::vector<Overlap>& found = by_block[b];
+    auto cut = static_cast<std::size_t>(std::lower_bound(old.face.begin(), old.face.end(), static_cast<Index>(begin)) -
+                                        old.face.begin());
     for (std::size_t i = begin; i < end; ++i) {
       const Index f = static_cast<Index>(i);
-      shares_of(original, old_refined, old_children.row(f), old_label, old_share);
+      old_share.clear();
+      if (old.whole[f] != kNone) {
+        old_share.push_back({old.whole[f], 1});
+      } else {
+        for (Index k = old.offset[cut]; k < old.offset[cut + 1]; ++k) old_share.push_back({old.label[k], old.share[k]});
+        ++cut;
+      }
       shares_of(original, new_refined, new_children.row(f), new_label, new_share);
       const Real area = area_normal(original, f).norm() / 2;
       for (const Share& n : new_share)
@@ -86,16 +92,47 @@ std::vector<Overlap> overlaps(const Work& work, const MeshView& original, const 
 
 }  // namespace
 
+LabelShares label_shares(const Work& work, MeshView original, const RefinedMesh& refined,
+                         std::span<const Index> label) {
+  if (label.size() != refined.parent.size())
+    throw Error(ErrorCode::internal, "label_shares needs one label per refined face");
+  const Csr children = children_of_parents(work, original.face_count(), refined);
+  LabelShares out;
+  out.whole.resize(original.face_count());
+  for_each(work, Cost::light, original.face_count(), [&](std::size_t f) {
+    const auto row = children.row(static_cast<Index>(f));
+    const bool whole =
+        !row.empty() && std::all_of(row.begin(), row.end(), [&](Index c) { return label[c] == label[row[0]]; });
+    out.whole[f] = whole ? label[row[0]] : kNone;
+  });
+  out.face = compact(work, original.face_count(), [&](std::size_t f) { return out.whole[f] == kNone; });
+  out.offset.push_back(0);
+  std::vector<Share> shares;
+  for (std::size_t i = 0; i < out.face.size(); ++i) {
+    if (i % 4096 == 0) work.check();
+    shares_of(original, refined, children.row(out.face[i]), label, shares);
+    for (const Share& s : shares) out.label.push_back(s.label), out.share.push_back(s.share);
+    out.offset.push_back(static_cast<Index>(out.label.size()));
+  }
+  return out;
+}
+
 LabelMatch match_labels(const Work& work, MeshView original, const RefinedMesh& old_refined,
                         std::span<const Index> old_label, Index old_count, const RefinedMesh& new_refined,
                         std::span<const Index> new_label, Index new_count) {
-  if (old_label.size() != old_refined.parent.size() || new_label.size() != new_refined.parent.size())
+  return match_labels(work, original, label_shares(work, original, old_refined, old_label), old_count, new_refined,
+                      new_label, new_count);
+}
+
+LabelMatch match_labels(const Work& work, MeshView original, const LabelShares& old, Index old_count,
+                        const RefinedMesh& new_refined, std::span<const Index> new_label, Index new_count) {
+  if (old.whole.size() != original.face_count() || new_label.size() != new_refined.parent.size())
     throw Error(ErrorCode::internal, "match_labels needs one label per refined face");
   LabelMatch match;
   match.old_of_new.assign(new_count, kNone);
   std::vector<Real> best(new_count, -1), kept(old_count, 0), area(old_count, 0);
   std::vector<Index> components(old_count, 0);
-  for (const Overlap& o : overlaps(work, original, old_refined, old_label, new_refined, new_label)) {
+  for (const Overlap& o : overlaps(work, original, old, new_refined, new_label)) {
     area[o.old] += o.area;
     if (o.area > best[o.fresh]) best[o.fresh] = o.area, match.old_of_new[o.fresh] = o.old;
   }

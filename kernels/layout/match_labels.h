@@ -15,9 +15,23 @@ struct LabelMatch {
   bool ok = false;                // one component for each old patch and no trouble
 };
 
+// How the faces of the original mesh are divided among labels.
+struct LabelShares {
+  std::vector<Index> whole;   // original face -> its only label, or kNone
+  std::vector<Index> face;    // those with several labels or none, ascending
+  std::vector<Index> offset;  // place in `face` -> its part of the following two
+  std::vector<Index> label;   // ascending
+  std::vector<Real> share;    // of the face's area
+};
+
+// Requires: one label per refined face.
+LabelShares label_shares(const Work& work, MeshView original, const RefinedMesh& refined, std::span<const Index> label);
+
 // Every new component gets the old patch it shares most area with. Parents that are cut count by the product of the two
 // shares of their area. An old patch is in trouble if it does not get exactly one component, or if that component
 // shares less than half of the patch's area. Requires: labels per refined face, below the given counts.
+LabelMatch match_labels(const Work& work, MeshView original, const LabelShares& old, Index old_count,
+                        const RefinedMesh& new_refined, std::span<const Index> new_label, Index new_count);
 LabelMatch match_labels(const Work& work, MeshView original, const RefinedMesh& old_refined,
                         std::span<const Index> old_label, Index old_count, const RefinedMesh& new_refined,
                         std::span<const Index> new_label, Index new_count);

@@ -79,8 +79,7 @@ DirectionField direction_field(const Work& work, const MeshView& mesh, const Cur
     field.ridge[v] = static_cast<float>(std::max(fields.kmax[v], 0.0));
     field.valley[v] = static_cast<float>(std::max(-fields.kmin[v], 0.0));
   });
-  normalise(field.ridge);
-  normalise(field.valley);
+  in_parallel([&] { normalise(field.ridge); }, [&] { normalise(field.valley); });
   return field;
 }
 

@@ -76,7 +76,7 @@ class Embedder {
     collect_segments();
     arrange_touched_faces();
     write_faces();
-    connect_mesh(work_, out_.refined.mesh);
+    connect_faces(work_, out_.refined.mesh);
     mark_network();
     out_.point_vertex = std::move(nodes_.of_point);
     return std::move(out_);
@@ -223,15 +223,14 @@ class Embedder {
     const Index originals = mesh_.vertex_count();
     const std::size_t n = originals + nodes_.extra.size() + crossings_;
     RefinedMesh& r = out_.refined;
-    r.origin.resize(n);
-    for_each(work_, Cost::light, originals,
-             [&](std::size_t v) { r.origin[v] = SurfacePoint::at_vertex(static_cast<Index>(v)); });
-    std::copy(nodes_.extra.begin(), nodes_.extra.end(), r.origin.begin() + originals);
+    std::vector<SurfacePoint> added(nodes_.extra);
+    added.resize(nodes_.extra.size() + crossings_);
     for (std::size_t i = 0; i < faces_.size(); ++i)
       for (Index k = static_cast<Index>(arrangement_[i].vertex.size()); k < arrangement_[i].a.point.size(); ++k) {
         const PlanePoint& p = arrangement_[i].a.point[k];
-        r.origin[refined_vertex(i, k)] = SurfacePoint::in_face(faces_[i], 1 - p.u - p.v, p.u);
+        added[refined_vertex(i, k) - originals] = SurfacePoint::in_face(faces_[i], 1 - p.u - p.v, p.u);
       }
+    r.origin = VertexOrigins(originals, std::move(added));
     r.mesh.x.resize(n), r.mesh.y.resize(n), r.mesh.z.resize(n);
     for_each(work_, Cost::light, n, [&](std::size_t v) {
       const Vec3 p = position(mesh_, r.origin[v]);
@@ -308,7 +307,7 @@ class Embedder {
     const std::size_t edges = r.mesh.edge_count();
     r.on_network.assign(edges, 0);
     r.edge_kind.assign(edges, CurveKind::subdivision);
-    r.edge_strength.assign(edges, 0);
+    r.edge_strength.resize(edges);
     auto carried = carried_edges();
     std::sort(carried.begin(), carried.end());
     carried.erase(std::unique(carried.begin(), carried.end()), carried.end());
@@ -317,7 +316,7 @@ class Embedder {
       out_.edge.push_back(e), out_.edge_curve.push_back(c);
       r.edge_kind[e] = r.on_network[e] ? std::min(r.edge_kind[e], curves_.kind[c]) : curves_.kind[c];
       r.on_network[e] = 1;
-      if (!strength.empty()) r.edge_strength[e] = (strength[r.mesh.edge_v0[e]] + strength[r.mesh.edge_v1[e]]) / 2;
+      if (!strength.empty()) r.edge_strength.set(e, (strength[r.mesh.edge_v0[e]] + strength[r.mesh.edge_v1[e]]) / 2);
     }
     for_each(work_, Cost::light, edges, [&](std::size_t e) {
       if (r.mesh.edge_f1[e] != kNone || r.on_network[e]) return;

@@ -20,7 +20,7 @@ Index nearest_original(const MeshView& original_ids, const RefinedMesh& refined,
   // Refined vertices keep a chain to an original one: the ring of a cut face always holds one.
   Index best = kNone;
   Real distance = std::numeric_limits<Real>::infinity();
-  for (Index w : refined.mesh.vertex_vertices.row(v)) {
+  for (Index w : VertexRing(refined.mesh, v)) {
     if (w >= originals) continue;
     const Real d = (original_ids.point(w) - original_ids.point(v)).squaredNorm();
     if (d < distance) distance = d, best = w;
@@ -46,7 +46,7 @@ Terrain::Terrain(const RefinedMesh& refined, Vec3View normal, const DirectionFie
     for (Index v = originals_; v < mesh_.vertex_count(); ++v) {
       Index& g = guide_[v - originals_];
       if (g != kNone) continue;
-      for (Index w : mesh_.vertex_vertices.row(v))
+      for (Index w : ring(v))
         if (guide(w) != kNone) {
           g = guide(w), open = true;
           break;

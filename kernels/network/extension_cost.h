@@ -8,6 +8,7 @@
 #include <span>
 
 #include "engine/data/curve_network.h"
+#include "engine/data/vertex_ring.h"
 #include "kernels/network/direction_field.h"
 
 namespace intarsia::kernels {
@@ -43,7 +44,7 @@ class Terrain {
   Real confidence(Index v) const { return field_.confidence[guide(v)]; }
   // Curvature of the channel as a share of its 95th percentile.
   Real relative_curvature(Index v, CurveKind channel) const;
-  std::span<const Index> ring(Index v) const { return mesh_.vertex_vertices.row(v); }
+  VertexRing ring(Index v) const { return VertexRing(mesh_, v); }
 
  private:
   Index guide(Index v) const { return v < originals_ ? v : guide_[v - originals_]; }

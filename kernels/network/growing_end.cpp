@@ -31,8 +31,7 @@ std::vector<GrowingEnd> find_ends(const Work& work, const RefinedMesh& refined, 
                                   Real history) {
   const MeshView mesh = refined.mesh;
   std::vector<std::uint8_t> degree(mesh.vertex_count(), 0);
-  for (Index e = 0; e < mesh.edge_count(); ++e) {
-    if (!active[e]) continue;
+  for (Index e : compact(work, mesh.edge_count(), [&](std::size_t i) { return active[i] != 0; })) {
     for (Index v : {mesh.edge_v0[e], mesh.edge_v1[e]})
       degree[v] = static_cast<std::uint8_t>(std::min(3, degree[v] + 1));
   }

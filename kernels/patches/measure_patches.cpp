@@ -64,13 +64,41 @@ Index patch_of_hole(const PatchSurface& s, Index hole, std::span<const Index> pa
 }
 
 std::vector<std::int32_t> euler_of_patches(const Work& work, const PatchSurface& s, const PatchLabels& labels) {
+  const MeshView& mesh = s.mesh;
   const auto& patch = labels.patch_of_face;
+  // Twice V - E + F, with 2 E = 3 F + (edges of faces with nothing of their own patch behind them).
   std::vector<std::int32_t> euler(labels.count, 0);
+  std::vector<std::uint8_t> on_border(mesh.vertex_count(), 0);
   add_by_row(
-      work, patch.size(), euler, [&](std::size_t f) { return patch[f]; },
-      [&](std::size_t f) {
-        return euler_share(s.mesh, static_cast<Index>(f), [&](Index g) { return patch[g] == patch[f]; });
-      });
+      work, patch.size(), euler, [&](std::size_t f) { return patch[f]; }, [](std::size_t) { return -1; });
+  for_each(work, Cost::light, mesh.edge_count(), [&](std::size_t e) {
+    const Index f = mesh.edge_f0[e], g = mesh.edge_f1[e];
+    if (g != kNone && patch[f] == patch[g]) return;
+    std::atomic_ref<std::int32_t>(euler[patch[f]]).fetch_sub(1, std::memory_order_relaxed);
+    if (g != kNone) std::atomic_ref<std::int32_t>(euler[patch[g]]).fetch_sub(1, std::memory_order_relaxed);
+    for (const Index v : {mesh.edge_v0[e], mesh.edge_v1[e]})
+      std::atomic_ref<std::uint8_t>(on_border[v]).store(1, std::memory_order_relaxed);
+  });
+  // Every fan of faces around a vertex off the borders is whole and of one patch.
+  add_by_row(
+      work, mesh.vertex_count(), euler,
+      [&](std::size_t v) {
+        const Index first = mesh.vertex_faces.offset[v];
+        return on_border[v] || first == mesh.vertex_faces.offset[v + 1] ? kNone : patch[mesh.vertex_faces.item[first]];
+      },
+      [](std::size_t) { return 2; });
+  for_each_block(work, Cost::light, mesh.vertex_count(), [&](std::size_t begin, std::size_t end, std::size_t) {
+    std::vector<Index> around;
+    for (std::size_t v = begin; v < end; ++v) {
+      if (!on_border[v]) continue;
+      around.clear();
+      for (const Index f : mesh.vertex_faces.row(static_cast<Index>(v))) around.push_back(patch[f]);
+      std::sort(around.begin(), around.end());
+      around.erase(std::unique(around.begin(), around.end()), around.end());
+      for (const Index p : around) std::atomic_ref<std::int32_t>(euler[p]).fetch_add(2, std::memory_order_relaxed);
+    }
+  });
+  for (std::int32_t& e : euler) e /= 2;
   for (Index h = 0; h < s.hole.rows(); ++h)
     if (const Index p = patch_of_hole(s, h, patch); p != kNone) ++euler[p];
   return euler;

@@ -65,7 +65,7 @@ void PatchGraph::add_links(const Work& work, const PatchSurface& s, const PatchL
     Border b;
     b.other = q;
     for (const std::uint64_t pair = link[i].pair; i < link.size() && link[i].pair == pair; ++i) {
-      const Real length = s.edge_length(link[i].edge), theta = s.strength.empty() ? 0 : s.strength[link[i].edge];
+      const Real length = s.edge_length(link[i].edge), theta = s.strength(link[i].edge);
       b.length += length;
       b.salience += theta * theta * length;
       ++b.edges;

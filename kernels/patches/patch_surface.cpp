@@ -73,19 +73,17 @@ PatchSurface make_patch_surface(const Work& work, const RefinedMesh& refined, Ve
                                 Real hole_length) {
   PatchSurface s;
   s.mesh = refined.mesh.view();
-  s.strength = refined.edge_strength;
+  s.strengths = &refined.edge_strength;
+  s.normal = FaceVectors(parent_normal, refined.parent);
   s.mean_edge = mean_edge;
   const Index faces = s.mesh.face_count();
   s.area.resize(faces);
-  s.normal.resize(faces);
   for_each(work, Cost::light, faces, [&](std::size_t i) {
     const Index f = static_cast<Index>(i);
     const auto [a, b, c] = s.mesh.face(f);
     const Vec3 p = s.mesh.point(a);
     const Vec3 cross = (s.mesh.point(b) - p).cross(s.mesh.point(c) - p);
     s.area[f] = cross.norm() / 2;
-    const Vec3 n = parent_normal[refined.parent[f]];
-    s.normal.set(f, std::isfinite(n.x() + n.y() + n.z()) ? n : Vec3::Zero());
   });
   s.total_area = sum(work, Cost::light, faces, Real{0}, [&](std::size_t f) { return s.area[f]; });
   find_short_holes(work, hole_length, s);
@@ -93,7 +91,8 @@ PatchSurface make_patch_surface(const Work& work, const RefinedMesh& refined, Ve
 }
 
 Vec3Array smooth_normals(const Work& work, const PatchSurface& s, std::span<const Index> label, int rounds) {
-  Vec3Array normal = s.normal, next(rounds > 0 ? s.normal.size() : 0);
+  Vec3Array normal(s.normal.size()), next(rounds > 0 ? s.normal.size() : 0);
+  for_each(work, Cost::light, normal.size(), [&](std::size_t f) { normal.set(f, s.normal[static_cast<Index>(f)]); });
   for (int round = 0; round < rounds; ++round) {
     for_each(work, Cost::light, s.area.size(), [&](std::size_t i) {
       const Index f = static_cast<Index>(i);

@@ -1,6 +1,7 @@
 // The surface as the patch kernels see it: areas, original normals, and the small holes that count as filled.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -12,11 +13,31 @@
 
 namespace intarsia::kernels {
 
+// One vector per face, read through the face's parent where there is a list of parents.
+class FaceVectors {
+ public:
+  FaceVectors() = default;
+  FaceVectors(const Vec3View& of_face) : vector_(of_face) {}
+  FaceVectors(const Vec3Array& of_face) : vector_(of_face) {}
+  FaceVectors(const Vec3View& of_parent, std::span<const Index> parent) : vector_(of_parent), parent_(parent) {}
+
+  // Zero for what is not finite.
+  Vec3 operator[](Index f) const {
+    const Vec3 v = vector_[parent_.empty() ? f : parent_[f]];
+    return std::isfinite(v.x() + v.y() + v.z()) ? v : Vec3::Zero();
+  }
+  std::size_t size() const { return parent_.empty() ? vector_.size() : parent_.size(); }
+
+ private:
+  Vec3View vector_;
+  std::span<const Index> parent_;
+};
+
 struct PatchSurface {
   MeshView mesh;
-  std::span<const Real> strength;  // per edge: turn angle of the feature it carries, 0 elsewhere
-  std::vector<Real> area;          // per face
-  Vec3Array normal;                // per face: unit normal of its parent (a sliver has none of its own), or zero
+  const EdgeStrengths* strengths = nullptr;  // turn angle of the feature that an edge carries, 0 elsewhere
+  std::vector<Real> area;                    // per face
+  FaceVectors normal;  // per face: unit normal of its parent (a sliver has none of its own), or zero
   Real total_area = 0;
   Real mean_edge = 0;  // of the input mesh: refinement must not change what counts as thin
   Csr hole;            // short boundary loop -> its edges in order along the loop
@@ -28,12 +49,14 @@ struct PatchSurface {
     const auto [a, b, c] = mesh.face(f);
     return (mesh.point(a) + mesh.point(b) + mesh.point(c)) / 3;
   }
+  Real strength(Index e) const { return strengths->empty() ? 0 : (*strengths)[e]; }
   Real edge_length(Index e) const { return (mesh.point(mesh.edge_v1[e]) - mesh.point(mesh.edge_v0[e])).norm(); }
   // The edge before e on its short boundary loop, or kNone if e is on none.
   Index before_on_hole(Index e) const;
 };
 
-// Requires: unit (or zero) parent normals, one per original face; mean_edge > 0. Keeps views of `refined`.
+// Requires: unit (or zero) parent normals, one per original face; mean_edge > 0. Keeps views of `refined` and of
+// `parent_normal`.
 // hole_length: boundary loops of the surface shorter than this count as filled (section 17.1), unless a loop is longer
 // than the square root of the area of its component: that is the outer border of a small piece.
 PatchSurface make_patch_surface(const Work& work, const RefinedMesh& refined, Vec3View parent_normal, Real mean_edge,

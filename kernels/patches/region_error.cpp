@@ -14,7 +14,7 @@ std::pair<Index, Index> across(const PatchSurface& s, const Regions& regions, In
 
 bool is_fixed(const PatchSurface& s, Index corner) {
   const Index e = s.mesh.face_edge[corner];
-  return s.strength[e] > 0 || s.mesh.is_boundary_edge(e);
+  return s.strength(e) > 0 || s.mesh.is_boundary_edge(e);
 }
 
 Index start_of(const PatchSurface& s, Index corner) { return s.mesh.corner[3 * (corner / 3) + (corner % 3 + 1) % 3]; }

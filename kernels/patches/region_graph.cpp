@@ -98,7 +98,7 @@ Index node_size_for(std::size_t faces) {
 }
 
 RegionGraph make_region_graph(const Work& work, const PatchSurface& s, const Region& region, Index node_size,
-                              const Vec3View& normal, Regions& regions) {
+                              const FaceVectors& normal, Regions& regions) {
   RegionGraph g;
   const std::size_t n = region.faces.size();
   for (std::size_t i = 0; i < n; ++i) regions.position[region.faces[i]] = static_cast<Index>(i);

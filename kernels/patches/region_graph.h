@@ -28,7 +28,7 @@ struct RegionGraph {
 // degrees from its first one. `normal`: per face of the surface, what mean_normal is made of (smooth_normals).
 // Requires: region.faces connected. Writes regions.position of these faces.
 RegionGraph make_region_graph(const Work& work, const PatchSurface& surface, const Region& region, Index node_size,
-                              const Vec3View& normal, Regions& regions);
+                              const FaceVectors& normal, Regions& regions);
 
 // Nodes per region that keep a Lloyd iteration near a millisecond: 1 for small regions, balls for large ones.
 Index node_size_for(std::size_t faces);

@@ -54,7 +54,7 @@ LayoutCase identity_case(const Soup& soup, const Label& label, const Kind& kind)
   for (Index v = 0; v < m.vertex_count(); ++v) c.refined.origin.push_back(SurfacePoint::at_vertex(v));
   c.refined.on_network.assign(m.edge_count(), 0);
   c.refined.edge_kind.assign(m.edge_count(), CurveKind::border);
-  c.refined.edge_strength.assign(m.edge_count(), 0);
+  c.refined.edge_strength.resize(m.edge_count());
   for (Index e = 0; e < m.edge_count(); ++e) {
     if (m.is_boundary_edge(e)) {
       c.refined.on_network[e] = 1;
