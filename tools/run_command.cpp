@@ -42,15 +42,16 @@ int run(const RunFlags& flags) {
   const graph::LayoutPorts ports = graph::add_layout_stages(command.flow(), command.soup(), options);
   nlohmann::json summary;
   const auto write = [&](const Work& work, const Soup& s, const graph::Surface& surface, const graph::Ridges& ridges,
-                         const graph::Ridges& valleys, const graph::Sharp& sharp, const graph::Network& network,
+                         const graph::Ridges& valleys, const graph::Sharp& sharp, const graph::Smoothing& smoothing,
                          const graph::Layout& layout) {
-    add_layout_report(summary, s, surface, network, layout, options.patches);
-    return write_result(work, folder, s, surface, ridges, valleys, sharp, network, layout, pictures_of(flags.picture));
+    add_layout_report(summary, s, surface, smoothing.network, layout, options.patches);
+    return write_result(work, folder, s, surface, ridges, valleys, sharp, smoothing.network, layout,
+                        pictures_of(flags.picture));
   };
   using WriteStage =
-      Stage<Written, Soup, graph::Surface, graph::Ridges, graph::Ridges, graph::Sharp, graph::Network, graph::Layout>;
+      Stage<Written, Soup, graph::Surface, graph::Ridges, graph::Ridges, graph::Sharp, graph::Smoothing, graph::Layout>;
   add_stage(command.flow(), WriteStage{"write", 1, 0, write, {}, 1.5}, command.soup(), ports.features.surface,
-            ports.ridges, ports.valleys, ports.features.sharp, ports.network, ports.layout);
+            ports.ridges, ports.valleys, ports.features.sharp, ports.smoothing, ports.layout);
   const nlohmann::json report = command.run(flags.method.to_json(options), [&](nlohmann::json& r) {
     r["options"]["patches"] = {{"value", options.patches}, {"given", options.patches > 0}};
     r.merge_patch(summary);
