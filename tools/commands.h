@@ -6,7 +6,9 @@
 namespace intarsia::tools {
 
 void add_run_command(CLI::App& app, int& exit_code);
+void add_batch_command(CLI::App& app, int& exit_code);
 void add_features_command(CLI::App& app, int& exit_code);
+void add_info_command(CLI::App& app, int& exit_code);
 void add_make_command(CLI::App& app, int& exit_code);
 void add_distance_command(CLI::App& app, int& exit_code);
 void add_eval_command(CLI::App& app, int& exit_code);

@@ -33,7 +33,9 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "intarsia " INTARSIA_VERSION);
   int exit_code = kExitDone;
   add_run_command(app, exit_code);
+  add_batch_command(app, exit_code);
   add_features_command(app, exit_code);
+  add_info_command(app, exit_code);
   add_make_command(app, exit_code);
   add_table1_command(app, exit_code);
   add_distance_command(app, exit_code);

@@ -20,6 +20,9 @@ void add_common_flags(CLI::App& app, CommonFlags& flags) {
       ->check(CLI::IsMember({"fixed", "relaxed"}))
       ->capture_default_str();
   app.add_option("--seed", flags.seed, "of the random subdivision seeds in paper mode")->capture_default_str();
+  app.add_option("--max-memory", flags.max_memory,
+                 "refuse at once what would need more memory, by forecast: bytes, or with K M G (of 1024)")
+      ->transform(CLI::AsSizeValue(false));
   app.add_option("--report", flags.report, "write the report to this file too");
   app.add_option("--trace", flags.trace, "write a Chrome trace of the stages to this file");
   app.add_flag("-q,--quiet", flags.quiet, "print nothing but errors");

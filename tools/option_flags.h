@@ -14,6 +14,7 @@ namespace intarsia::tools {
 struct CommonFlags {
   std::string mode = "robust", subdivide, order = "fixed", report, trace;
   int threads = 0;
+  std::uint64_t max_memory = 0;  // bytes; 0 = no limit
   std::uint64_t seed = 0;
   bool quiet = false;
 };

@@ -6,6 +6,7 @@
 #include "engine/io/write_file.h"
 #include "engine/run/trace.h"
 #include "graph/artefacts.h"
+#include "tools/forecast.h"
 #include "tools/interrupt.h"
 #include "tools/report.h"
 
@@ -15,6 +16,14 @@ namespace {
 RunContext& listened(RunContext& context, ProgressBar& bar) {
   context.add_listener(bar);
   return context;
+}
+
+void check_memory(const Forecast& forecast, std::uint64_t most) {
+  if (most == 0 || forecast.peak_memory <= most) return;
+  throw Error(ErrorCode::no_memory,
+              "this mesh needs about " + memory_text(forecast.peak_memory) + ", more than the " + memory_text(most) +
+                  " that --max-memory allows; nothing was begun. Allow more, or take a smaller mesh: simplified, or in "
+                  "parts");
 }
 
 }  // namespace
@@ -35,7 +44,12 @@ StageCommand::StageCommand(std::string name, std::string input, const CommonFlag
       context_(settings_of(flags), &interrupt_flag()),
       bar_(flags.quiet ? ProgressBar::Style::none : ProgressBar::style_for_terminal()),
       flow_(listened(context_, bar_), std::filesystem::path(input_).filename().string()) {
-  const auto read = [path = std::filesystem::path(input_)](const Work& work) { return read_mesh(work, path); };
+  const CostModel cost = name_ == "features" ? kFeaturesCost : kRunCost;
+  const auto read = [path = std::filesystem::path(input_), cost, most = flags.max_memory](const Work& work) {
+    Soup soup = read_mesh(work, path);
+    check_memory(cost(soup.vertex_count(), soup.face_count()), most);
+    return soup;
+  };
   soup_ = add_stage(flow_, Stage<Soup>{"read", 1, 0, read, {}, 0.3});
 }
 

@@ -127,7 +127,7 @@ class Diagnosis {
       const std::array<Index, 3> c = corners_of(soup_, t);
       for (std::size_t i = 0; i < 3; ++i) {
         const Index a = c[i], b = c[(i + 1) % 3];
-        side_[3 * t + i] = {std::min(a, b), std::max(a, b), static_cast<Index>(t), a < b};
+        side_[3 * t + i] = repeats(c) ? Side{} : Side{std::min(a, b), std::max(a, b), static_cast<Index>(t), a < b};
       }
     });
     std::erase_if(side_, [](const Side& s) { return s.a == s.b; });

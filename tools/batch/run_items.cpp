@@ -81,9 +81,9 @@ class Batch {
     if (alone && !running_.empty()) return false;
     if (static_cast<int>(running_.size()) >= std::min(plan_.jobs, plan_.threads)) return false;
     if (std::any_of(running_.begin(), running_.end(), [](const Running& r) { return r.alone; })) return false;
-    std::int64_t used = 0;
-    for (const Running& r : running_) used += r.forecast.memory;
-    return plan_.memory == 0 || used + w.forecast.memory <= plan_.memory;
+    std::uint64_t used = 0;
+    for (const Running& r : running_) used += r.forecast.peak_memory;
+    return plan_.memory == 0 || used + w.forecast.peak_memory <= plan_.memory;
   }
   bool is_large(const Waiting& w) const { return plan_.jobs == 1 || w.forecast.cpu_seconds > plan_.large_seconds; }
 
@@ -91,7 +91,7 @@ class Batch {
   // put off for ever; of small ones the first that fits into the memory goes.
   bool begin_next() {
     for (auto w = waiting_.begin(); w != waiting_.end(); ++w) {
-      if (plan_.memory > 0 && w->forecast.memory > plan_.memory) {
+      if (plan_.memory > 0 && w->forecast.peak_memory > plan_.memory) {
         refuse(*w);
         waiting_.erase(w);
         return true;
@@ -109,7 +109,7 @@ class Batch {
   void refuse(const Waiting& w) {
     ItemRecord record = fresh_record(state_of(w.item->input));
     record.exit = kExitLimit;
-    record.message = "needs about " + std::to_string(w.forecast.memory >> 20) + " MB by forecast, more than the " +
+    record.message = "needs about " + std::to_string(w.forecast.peak_memory >> 20) + " MB by forecast, more than the " +
                      std::to_string(plan_.memory >> 20) + " MB of --max-memory";
     finish(*w.item, record);
   }

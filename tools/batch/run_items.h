@@ -10,20 +10,16 @@
 #include <vector>
 
 #include "tools/batch/item.h"
+#include "tools/forecast.h"
 
 namespace intarsia::tools {
-
-struct Forecast {
-  std::int64_t memory = 0;  // bytes at the peak
-  double cpu_seconds = 0;
-};
 
 struct BatchPlan {
   std::filesystem::path program, results;
   std::vector<std::string> run_options;  // handed on to `intarsia run`
   int threads = 1;                       // in all
   int jobs = 1;                          // most meshes side by side
-  std::int64_t memory = 0;               // bytes in all; 0 = no limit
+  std::uint64_t memory = 0;              // bytes in all; 0 = no limit
   double large_seconds = 4;              // CPU seconds of a mesh that gets all threads for itself
 };
 

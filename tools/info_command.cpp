@@ -1,0 +1,117 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/io/read_mesh.h"
+#include "engine/run/context.h"
+#include "kernels/surface/diagnose_soup.h"
+#include "tools/commands.h"
+#include "tools/exit_code.h"
+#include "tools/forecast.h"
+#include "tools/interrupt.h"
+
+namespace intarsia::tools {
+namespace {
+
+using kernels::Fault;
+using kernels::SoupDiagnosis;
+using nlohmann::json;
+
+struct InfoFlags {
+  std::string input;
+  int threads = 0;
+  bool json = false;
+};
+
+struct NamedFault {
+  const char *key, *text, *element;
+  const Fault* fault;
+};
+
+std::vector<NamedFault> faults_of(const SoupDiagnosis& d) {
+  return {{"isolated_vertices", "isolated vertices", "vertex", &d.isolated_vertices},
+          {"repeated_corners", "faces with a corner twice", "face", &d.repeated_corners},
+          {"zero_area", "faces without area", "face", &d.zero_area},
+          {"duplicate_faces", "duplicate faces", "face", &d.duplicate_triangles},
+          {"non_manifold_edges", "edges of three faces or more", "face", &d.non_manifold_edges},
+          {"turned_edges", "edges whose two faces disagree in orientation", "face", &d.turned_edges},
+          {"several_fans", "vertices where surfaces only touch", "vertex", &d.several_fans}};
+}
+
+json json_of(const std::string& input, const SoupDiagnosis& d, const Forecast& forecast) {
+  const auto list = [](const Vec3& p) { return json{p.x(), p.y(), p.z()}; };
+  json faults = json::object();
+  for (const NamedFault& f : faults_of(d)) faults[f.key] = {{"count", f.fault->count}, {"first", f.fault->first}};
+  return {{"schema", "intarsia-info"},
+          {"schema_version", 1},
+          {"input", input},
+          {"vertices", d.vertices},
+          {"triangles", d.triangles},
+          {"edges", d.edges},
+          {"components", d.components},
+          {"border_edges", d.border_edges},
+          {"border_loops", d.border_loops},
+          {"genus", d.genus >= 0 ? json(d.genus) : json()},
+          {"surface", d.is_surface()},
+          {"faults", faults},
+          {"box", {{"low", list(d.low)}, {"high", list(d.high)}, {"diagonal", d.diagonal}}},
+          {"area", d.area},
+          {"edge_length", {{"mean", d.edge_mean}, {"least", d.edge_least}, {"most", d.edge_most}}},
+          {"forecast", {{"cpu_seconds", forecast.cpu_seconds}, {"peak_memory_bytes", forecast.peak_memory}}}};
+}
+
+void print(const std::string& input, const SoupDiagnosis& d, const Forecast& forecast) {
+  fmt::print("{}\n", input);
+  fmt::print("  {} vertices, {} triangles, {} component{}", d.vertices, d.triangles, d.components,
+             d.components == 1 ? "" : "s");
+  if (d.border_loops > 0)
+    fmt::print(", {} boundary loop{} of {} edges", d.border_loops, d.border_loops == 1 ? "" : "s", d.border_edges);
+  else
+    fmt::print(", closed");
+  fmt::print("{}\n", d.genus >= 0 ? fmt::format(", genus {}", d.genus) : "");
+  fmt::print("  box {:g} x {:g} x {:g}, diagonal {:g}, area {:g}\n", d.high.x() - d.low.x(), d.high.y() - d.low.y(),
+             d.high.z() - d.low.z(), d.diagonal, d.area);
+  fmt::print("  edges {:g} on the mean ({:g} % of the diagonal), {:g} to {:g}\n", d.edge_mean,
+             d.diagonal > 0 ? 100 * d.edge_mean / d.diagonal : 0, d.edge_least, d.edge_most);
+  bool clean = true;
+  for (const NamedFault& f : faults_of(d)) {
+    if (f.fault->count == 0) continue;
+    clean = false;
+    fmt::print("  {} {}: {} {}{}\n", f.fault->count, f.text, f.element, fmt::join(f.fault->first, ", "),
+               f.fault->count > f.fault->first.size() ? ", ..." : "");
+  }
+  if (clean) fmt::print("  no faults\n");
+  fmt::print("  {}\n", d.is_surface() ? "a surface that run takes" : "not an oriented 2-manifold: run refuses it");
+  fmt::print("  forecast of run: {:.1f} CPU seconds, {} of memory at the peak\n", forecast.cpu_seconds,
+             memory_text(forecast.peak_memory));
+}
+
+int info(const InfoFlags& flags) {
+  RunSettings settings;
+  settings.threads = flags.threads;
+  RunContext context(settings, &interrupt_flag());
+  SoupDiagnosis d;
+  const Work work = context.work();
+  context.execute([&] { d = kernels::diagnose_soup(work, read_mesh(work, flags.input)); });
+  const Forecast forecast = kRunCost(d.vertices, d.triangles);
+  if (flags.json)
+    fmt::print("{}\n", json_of(flags.input, d, forecast).dump(1, ' ', false, json::error_handler_t::replace));
+  else
+    print(flags.input, d, forecast);
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, int& exit_code) {
+  auto flags = std::make_shared<InfoFlags>();
+  CLI::App* command = app.add_subcommand("info", "what a mesh is like, what is wrong with it, what a run will cost");
+  command->add_option("input", flags->input, "mesh: .ply .obj .stl .off")->required();
+  command->add_flag("--json", flags->json, "print JSON");
+  command->add_option("-t,--threads", flags->threads, "threads; 0 = all allowed processors")
+      ->check(CLI::NonNegativeNumber);
+  command->callback([flags, &exit_code] { exit_code = info(*flags); });
+}
+
+}  // namespace intarsia::tools
