@@ -27,8 +27,8 @@ struct CostModel {
 };
 
 // Default options, with the preview.
-inline constexpr CostModel kRunCost{0.35, 4e-6, 4e-6, 75e6, 250, 180};
-inline constexpr CostModel kFeaturesCost{0.05, 4e-6, 1e-6, 30e6, 150, 60};
+inline constexpr CostModel kRunCost{0.45, 7.5e-6, 3.75e-6, 55e6, 370, 185};
+inline constexpr CostModel kFeaturesCost{0.02, 3.1e-6, 1.55e-6, 14e6, 255, 125};
 
 // Vertices of the mesh in a file, from its first bytes and its size alone: exact for PLY and OFF; for STL and OBJ what
 // a closed surface has. 0 where it cannot be told.
