@@ -38,8 +38,15 @@ struct TableFlags {
   OptionFlags method;
 };
 
+std::vector<std::string> method_flags() {
+  std::vector<std::string> flags;
+  for (const Method m : graph::all_methods()) flags.push_back(graph::short_name_of(m));
+  return flags;
+}
+
 SheetOptions sheet_of(const TableFlags& flags) {
   SheetOptions options;
+  if (flags.rebuilt) options.height = 330;
   options.view = chosen_view(flags.view);
   return options;
 }
@@ -153,10 +160,9 @@ int table1(const TableFlags& flags) {
   RunContext context(settings_of(flags.common), &interrupt_flag());
   std::vector<Method> methods;
   std::vector<std::string> names;
-  for (const Method m : graph::all_methods())
-    if (flags.methods.empty() ||
-        std::find(flags.methods.begin(), flags.methods.end(), graph::short_name_of(m)) != flags.methods.end())
-      methods.push_back(m), names.push_back(graph::name_of(m));
+  for (const std::string& flag : flags.methods.empty() ? method_flags() : flags.methods)
+    for (const Method m : graph::all_methods())
+      if (graph::short_name_of(m) == flag) methods.push_back(m), names.push_back(graph::name_of(m));
   OutputFolder folder(flags.output, {"table1.md", "table1.csv", "table1.json", "table1.png"});
   Comparison comparison;
   const Work work = context.work();
@@ -193,9 +199,9 @@ void add_table1_command(CLI::App& app, int& exit_code) {
   command->add_option("--count", flags->counts, "MESH=N: another number of patches for one mesh");
   command->add_option("--reference", flags->references,
                       "MESH=FILE: measure against FILE (same vertices, in order) and leave out of the means");
-  std::vector<std::string> names;
-  for (const Method m : graph::all_methods()) names.push_back(graph::short_name_of(m));
-  command->add_option("--methods", flags->methods, "only these")->check(CLI::IsMember(names))->delimiter(',');
+  command->add_option("--methods", flags->methods, "only these, in this order")
+      ->check(CLI::IsMember(method_flags()))
+      ->delimiter(',');
   command->add_option("--loop-samples", flags->loop_samples, "points of a patch border at most, about")
       ->check(CLI::Range(12, 400))
       ->capture_default_str();

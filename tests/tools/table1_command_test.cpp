@@ -95,6 +95,8 @@ TEST_CASE("table1 compares methods on two meshes; its files agree with each othe
     const int wanted = name == "star" ? 10 : 14;
     CHECK(mesh["wanted_patches"] == wanted);
     REQUIRE(mesh["methods"].size() == 3);
+    CHECK(mesh["methods"][0]["method"] == "vsa");  // in the order that was asked for
+    CHECK(mesh["methods"][2]["method"] == "exoskeleton");
     const char* ways[] = {"triangulated", "transfinite", "filled"};
     const char* measures[] = {"hausdorff", "rms"};
     std::map<std::string, double> least;
