@@ -1,9 +1,12 @@
-// Operators new and delete of the program: large arrays come from huge pages and are handed on when they are freed.
-// Stages make and drop arrays of tens of megabytes; getting those from the system 4 kB at a time, and zeroed, costs a
-// tenth of a run. Memory kept for reuse never lifts the process above the most that was ever in use.
+// Operators new and delete of the program: large arrays live side by side in one reserved range of addresses, on huge
+// pages, and their memory is handed on when they are freed. Stages make and drop arrays of tens of megabytes; getting
+// those from the system, 4 kB at a time and zeroed, costs a sixth of a run. What is kept for reuse never lifts the
+// process above the most that was ever in use.
 #if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <cstdlib>
 #include <mutex>
@@ -13,100 +16,156 @@
 
 namespace {
 
-constexpr std::size_t kLarge = std::size_t{1} << 20;     // bytes; smaller requests are malloc's
-constexpr std::size_t kHugePage = std::size_t{2} << 20;  // also the alignment by which our blocks are known
-constexpr std::size_t kPage = 4096;
+constexpr std::size_t kLarge = std::size_t{256} << 10;  // bytes; smaller requests are malloc's
+constexpr std::size_t kGrain = std::size_t{64} << 10;   // bytes; everything below counts in these
+constexpr std::size_t kHugePage = std::size_t{2} << 20;
+constexpr std::size_t kGrains = std::size_t{1} << 22;  // 256 GB of addresses, none of it memory until it is used
 
-struct Block {
-  char* at = nullptr;
-  std::size_t bytes = 0;
+// A free stretch of the range. Holes do not overlap; neighbours differ in `resident`.
+struct Hole {
+  std::size_t at = 0, grains = 0;
+  bool resident = false;  // still holds memory
+  std::size_t end() const { return at + grains; }
 };
 
-// Blocks in use and blocks kept, in fixed tables: nothing here may allocate.
 class LargeMemory {
  public:
-  void* take(std::size_t wanted) {
-    const std::size_t bytes = (wanted + kPage - 1) / kPage * kPage;
+  // Null if there is no room here.
+  void* take(std::size_t bytes) {
+    const std::size_t grains = (bytes + kGrain - 1) / kGrain;
     const std::lock_guard lock(mutex_);
-    if (used_count_ == used_.size()) return nullptr;
-    Block block = best_kept(bytes);
-    if (block.at == nullptr) {
-      make_room(bytes);
-      block = map(bytes);
-      if (block.at == nullptr) {
-        while (kept_count_ > 0) unmap_oldest();
-        block = map(bytes);
-      }
-      if (block.at == nullptr) return nullptr;
-    }
-    in_use_ += block.bytes;
-    most_ = in_use_ > most_ ? in_use_ : most_;
-    used_[used_count_++] = block;
-    return block.at;
+    if (!is_reserved() || holes_ + 3 > hole_.size()) return nullptr;
+    const Place place = best_place(grains);
+    if (place.at + grains > kGrains) return nullptr;
+    cut(place, grains);
+    in_use_ += grains;
+    most_ = std::max(most_, in_use_);
+    while (kept_ > 0 && in_use_ + kept_ > most_) drop(in_use_ + kept_ - most_);
+    size_[place.at] = static_cast<std::uint32_t>(grains);
+    return base_.load() + place.at * kGrain;
   }
 
   // False if the address is not one of ours.
-  bool give_back(void* at) {
+  bool give_back(void* address) {
+    const std::uintptr_t a = reinterpret_cast<std::uintptr_t>(address),
+                         b = reinterpret_cast<std::uintptr_t>(base_.load(std::memory_order_relaxed));
+    if (b == 0 || a < b || a >= b + kGrains * kGrain) return false;
     const std::lock_guard lock(mutex_);
-    for (std::size_t i = used_count_; i-- > 0;) {
-      if (used_[i].at != at) continue;
-      const Block block = used_[i];
-      used_[i] = used_[--used_count_];
-      in_use_ -= block.bytes;
-      if (kept_count_ == kept_.size()) unmap_oldest();
-      kept_[kept_count_++] = block;
-      kept_bytes_ += block.bytes;
-      return true;
-    }
-    return false;
+    const std::size_t at = (a - b) / kGrain, grains = size_[at];
+    in_use_ -= grains;
+    kept_ += grains;
+    insert({at, grains, true});
+    return true;
   }
 
  private:
-  // The smallest kept block that fits without wasting more than an eighth.
-  Block best_kept(std::size_t bytes) {
-    std::size_t best = kept_count_;
-    for (std::size_t i = 0; i < kept_count_; ++i)
-      if (kept_[i].bytes >= bytes && kept_[i].bytes <= bytes + bytes / 8 &&
-          (best == kept_count_ || kept_[i].bytes < kept_[best].bytes))
-        best = i;
-    return best == kept_count_ ? Block{} : forget(best);
+  struct Place {
+    std::size_t at = 0, first = 0;  // first hole, or holes_ if it begins where all others end
+  };
+
+  bool is_reserved() {
+    if (tried_) return base_.load() != nullptr;
+    tried_ = true;
+    void* raw = ::mmap(nullptr, kGrains * kGrain + kHugePage, PROT_READ | PROT_WRITE,
+                       MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (raw == MAP_FAILED) return false;
+    const std::uintptr_t start = (reinterpret_cast<std::uintptr_t>(raw) + kHugePage - 1) / kHugePage * kHugePage;
+    ::madvise(reinterpret_cast<void*>(start), kGrains * kGrain, MADV_HUGEPAGE);
+    base_.store(reinterpret_cast<char*>(start));
+    return true;
   }
-  void make_room(std::size_t bytes) {
-    while (kept_count_ > 0 && in_use_ + kept_bytes_ + bytes > most_) unmap_oldest();
+
+  // The run of neighbouring holes with most memory in its first `grains`; of equal ones the tightest.
+  Place best_place(std::size_t grains) const {
+    Place best{top_, holes_};
+    std::size_t best_resident = 0, best_size = kGrains;
+    for (std::size_t i = 0; i < holes_; ++i) {
+      std::size_t size = 0, resident = 0;
+      std::size_t k = i;
+      for (; k < holes_ && size < grains && (k == i || hole_[k].at == hole_[k - 1].end()); ++k) {
+        if (hole_[k].resident) resident += std::min(hole_[k].grains, grains - size);
+        size += hole_[k].grains;
+      }
+      if (size < grains && hole_[k - 1].end() != top_) continue;
+      if (resident > best_resident || (resident == best_resident && size >= grains && size < best_size))
+        best = {hole_[i].at, i}, best_resident = resident, best_size = std::max(size, grains);
+    }
+    return best;
   }
-  void unmap_oldest() {
-    const Block block = forget(0);
-    ::munmap(block.at, block.bytes);
+
+  void cut(const Place& place, std::size_t grains) {
+    const std::size_t end = place.at + grains;
+    std::size_t k = place.first;
+    for (; k < holes_ && hole_[k].end() <= end; ++k)
+      if (hole_[k].resident) kept_ -= hole_[k].grains;
+    if (k < holes_ && hole_[k].at < end) {
+      if (hole_[k].resident) kept_ -= end - hole_[k].at;
+      hole_[k].grains = hole_[k].end() - end;
+      hole_[k].at = end;
+    }
+    std::copy(hole_.begin() + static_cast<std::ptrdiff_t>(k), hole_.begin() + static_cast<std::ptrdiff_t>(holes_),
+              hole_.begin() + static_cast<std::ptrdiff_t>(place.first));
+    holes_ -= k - place.first;
+    top_ = std::max(top_, end);
   }
-  Block forget(std::size_t i) {
-    const Block block = kept_[i];
-    kept_bytes_ -= block.bytes;
-    for (--kept_count_; i < kept_count_; ++i) kept_[i] = kept_[i + 1];
-    return block;
+
+  void insert(const Hole& fresh) {
+    std::size_t i = 0;
+    while (i < holes_ && hole_[i].at < fresh.at) ++i;
+    for (std::size_t k = holes_; k > i; --k) hole_[k] = hole_[k - 1];
+    ++holes_;
+    hole_[i] = fresh;
+    join(i + 1);
+    if (i > 0) join(i);
   }
-  static Block map(std::size_t bytes) {
-    void* raw = ::mmap(nullptr, bytes + kHugePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (raw == MAP_FAILED) return {};
-    char* const start = static_cast<char*>(raw);
-    const std::size_t skip = (kHugePage - reinterpret_cast<std::uintptr_t>(raw) % kHugePage) % kHugePage;
-    if (skip > 0) ::munmap(start, skip);
-    if (skip < kHugePage) ::munmap(start + skip + bytes, kHugePage - skip);
-    ::madvise(start + skip, bytes, MADV_HUGEPAGE);
-    return {start + skip, bytes};
+  // Joins hole i to the one before it if they touch and are alike.
+  void join(std::size_t i) {
+    if (i == 0 || i >= holes_ || hole_[i - 1].end() != hole_[i].at || hole_[i - 1].resident != hole_[i].resident)
+      return;
+    hole_[i - 1].grains += hole_[i].grains;
+    for (std::size_t k = i; k + 1 < holes_; ++k) hole_[k] = hole_[k + 1];
+    --holes_;
+  }
+
+  // Gives memory of the largest resident hole back to the system, from its end.
+  void drop(std::size_t grains) {
+    std::size_t largest = holes_;
+    for (std::size_t i = 0; i < holes_; ++i)
+      if (hole_[i].resident && (largest == holes_ || hole_[i].grains > hole_[largest].grains)) largest = i;
+    if (largest == holes_) {
+      kept_ = 0;
+      return;
+    }
+    Hole& hole = hole_[largest];
+    const std::size_t dropped = holes_ == hole_.size() ? hole.grains : std::min(hole.grains, grains);
+    const Hole gone{hole.end() - dropped, dropped, false};
+    ::madvise(base_.load() + gone.at * kGrain, gone.grains * kGrain, MADV_DONTNEED);
+    kept_ -= dropped;
+    hole.grains -= dropped;
+    if (hole.grains == 0) {
+      hole = gone;
+      join(largest + 1);
+      join(largest);
+    } else {
+      insert(gone);
+    }
   }
 
   std::mutex mutex_;
-  std::array<Block, 4096> used_{};
-  std::array<Block, 64> kept_{};
-  std::size_t used_count_ = 0, kept_count_ = 0;
-  std::size_t in_use_ = 0, kept_bytes_ = 0, most_ = 0;
+  bool tried_ = false;
+  std::atomic<char*> base_ = nullptr;             // read without the lock by whoever frees
+  std::size_t top_ = 0;                           // nothing was ever used from here on
+  std::size_t in_use_ = 0, kept_ = 0, most_ = 0;  // grains in use, in resident holes, the most ever in use
+  std::array<Hole, 2048> hole_{};                 // by address
+  std::size_t holes_ = 0;
+  std::array<std::uint32_t, kGrains> size_{};  // of the block that begins at a grain
 };
 
 constinit LargeMemory large_memory;
 
 void* allocate(std::size_t bytes, std::size_t alignment) {
   for (;;) {
-    if (bytes >= kLarge && alignment <= kHugePage)
+    if (bytes >= kLarge && alignment <= kGrain)
       if (void* at = large_memory.take(bytes)) return at;
     void* at = alignment <= __STDCPP_DEFAULT_NEW_ALIGNMENT__
                    ? std::malloc(bytes > 0 ? bytes : 1)
@@ -119,8 +178,7 @@ void* allocate(std::size_t bytes, std::size_t alignment) {
 }
 
 void release(void* at) {
-  if (reinterpret_cast<std::uintptr_t>(at) % kHugePage == 0 && at != nullptr && large_memory.give_back(at)) return;
-  std::free(at);
+  if (!large_memory.give_back(at)) std::free(at);
 }
 
 }  // namespace
