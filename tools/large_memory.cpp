@@ -34,11 +34,12 @@ class LargeMemory {
   void* take(std::size_t bytes) {
     const std::size_t grains = (bytes + kGrain - 1) / kGrain;
     const std::lock_guard lock(mutex_);
-    if (!is_reserved() || holes_ + 3 > hole_.size()) return nullptr;
+    if (!is_reserved() || is_full()) return nullptr;
     const Place place = best_place(grains);
     if (place.at + grains > kGrains) return nullptr;
     cut(place, grains);
     in_use_ += grains;
+    ++blocks_;
     most_ = std::max(most_, in_use_);
     while (kept_ > 0 && in_use_ + kept_ > most_) drop(in_use_ + kept_ - most_);
     size_[place.at] = static_cast<std::uint32_t>(grains);
@@ -53,6 +54,7 @@ class LargeMemory {
     const std::lock_guard lock(mutex_);
     const std::size_t at = (a - b) / kGrain, grains = size_[at];
     in_use_ -= grains;
+    --blocks_;
     kept_ += grains;
     insert({at, grains, true});
     return true;
@@ -62,6 +64,9 @@ class LargeMemory {
   struct Place {
     std::size_t at = 0, first = 0;  // first hole, or holes_ if it begins where all others end
   };
+
+  // Every block may become a hole when it is freed: the table must hold them all.
+  bool is_full() const { return blocks_ + holes_ + 4 > hole_.size(); }
 
   bool is_reserved() {
     if (tried_) return base_.load() != nullptr;
@@ -137,7 +142,7 @@ class LargeMemory {
       return;
     }
     Hole& hole = hole_[largest];
-    const std::size_t dropped = holes_ == hole_.size() ? hole.grains : std::min(hole.grains, grains);
+    const std::size_t dropped = is_full() ? hole.grains : std::min(hole.grains, grains);
     const Hole gone{hole.end() - dropped, dropped, false};
     ::madvise(base_.load() + gone.at * kGrain, gone.grains * kGrain, MADV_DONTNEED);
     kept_ -= dropped;
@@ -157,6 +162,7 @@ class LargeMemory {
   std::size_t top_ = 0;                           // nothing was ever used from here on
   std::size_t in_use_ = 0, kept_ = 0, most_ = 0;  // grains in use, in resident holes, the most ever in use
   std::array<Hole, 2048> hole_{};                 // by address
+  std::size_t blocks_ = 0;
   std::size_t holes_ = 0;
   std::array<std::uint32_t, kGrains> size_{};  // of the block that begins at a grain
 };
