@@ -16,8 +16,8 @@ struct Part {
 };
 
 // Returns the number of labels used in the source.
-Index cut_source(const Work& work, const PatchSurface& s, const Region& whole, const DiscOptions& options,
-                 Regions& regions) {
+Index cut_source(const Work& work, const PatchSurface& s, const Region& whole, int whole_euler,
+                 const DiscOptions& options, Regions& regions) {
   Index labels = 1;
   std::vector<Part> open;
   open.push_back({0, {whole.faces.begin(), whole.faces.end()}});
@@ -25,7 +25,7 @@ Index cut_source(const Work& work, const PatchSurface& s, const Region& whole, c
     const Part part = std::move(open.back());
     open.pop_back();
     const Region region{whole.source, part.label, part.faces};
-    const int euler = euler_of_region(s, region, regions);
+    const int euler = part.faces.size() == whole.faces.size() ? whole_euler : euler_of_region(s, region, regions);
     if (euler == 1 || part.faces.size() < 2) continue;
     const Index defect = static_cast<Index>(std::abs(1 - euler));
     const Index k = std::min(options.most_seeds, 2 + 2 * std::min(defect, options.most_seeds));
@@ -101,7 +101,7 @@ PatchLabels cut_to_discs(const Work& work, const PatchSurface& s, const PatchLab
   std::vector<Index> count(labels.count, 1);
   for_each(work, Cost::single, order.size(), [&](std::size_t i) {
     const Index p = order[i];
-    count[p] = cut_source(work, s, {p, 0, faces.row(p)}, options, regions);
+    count[p] = cut_source(work, s, {p, 0, faces.row(p)}, euler[p], options, regions);
   });
   const PatchLabels parts = collect_regions(work, regions, count);
   PatchGraph graph(work, s, parts);

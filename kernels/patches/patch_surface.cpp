@@ -91,20 +91,29 @@ PatchSurface make_patch_surface(const Work& work, const RefinedMesh& refined, Ve
 }
 
 Vec3Array smooth_normals(const Work& work, const PatchSurface& s, std::span<const Index> label, int rounds) {
-  Vec3Array normal(s.normal.size()), next(rounds > 0 ? s.normal.size() : 0);
-  for_each(work, Cost::light, normal.size(), [&](std::size_t f) { normal.set(f, s.normal[static_cast<Index>(f)]); });
-  for (int round = 0; round < rounds; ++round) {
-    for_each(work, Cost::light, s.area.size(), [&](std::size_t i) {
-      const Index f = static_cast<Index>(i);
-      Vec3 sum = s.area[f] * normal[f];
-      Real area = s.area[f];
-      for (int k = 0; k < 3; ++k)
-        if (const Index g = s.neighbour(f, k); g != kNone && label[g] == label[f])
-          sum += s.area[g] * normal[g], area += s.area[g];
-      next.set(f, area > 0 ? Vec3(sum / area) : Vec3::Zero());
-    });
-    std::swap(normal, next);
-  }
+  const std::size_t faces = s.normal.size();
+  Vec3Array normal(faces);
+  for_each(work, Cost::light, faces, [&](std::size_t f) { normal.set(f, s.normal[static_cast<Index>(f)]); });
+  if (rounds == 0) return normal;
+  std::vector<Index> near(3 * faces);  // neighbours of the same label
+  for_each(work, Cost::light, faces, [&](std::size_t f) {
+    for (int k = 0; k < 3; ++k) {
+      const Index g = s.neighbour(static_cast<Index>(f), k);
+      near[3 * f + static_cast<std::size_t>(k)] = g != kNone && label[g] == label[f] ? g : kNone;
+    }
+  });
+  std::vector<Real> next(faces);
+  for (std::vector<Real>* now : {&normal.x, &normal.y, &normal.z})  // one at a time: less memory
+    for (int round = 0; round < rounds; ++round) {
+      const Real* const c = now->data();
+      for_each(work, Cost::light, faces, [&](std::size_t f) {
+        Real sum = s.area[f] * c[f], area = s.area[f];
+        for (std::size_t k = 3 * f; k < 3 * f + 3; ++k)
+          if (const Index g = near[k]; g != kNone) sum += s.area[g] * c[g], area += s.area[g];
+        next[f] = area > 0 ? sum / area : 0;
+      });
+      now->swap(next);
+    }
   return normal;
 }
 

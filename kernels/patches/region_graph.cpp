@@ -2,33 +2,49 @@
 
 #include <algorithm>
 #include <limits>
-#include <queue>
-#include <tuple>
+
+#include "engine/parallel/build_csr.h"
+#include "engine/parallel/scan.h"
+#include "kernels/patches/least_first.h"
 
 namespace intarsia::kernels {
 namespace {
 
 constexpr Real kBallTurn = 0.8;  // cosine
 
+// Ranks of the faces across the three edges of each face of the region; kNone outside.
+std::vector<Index> rank_neighbours(const Work& work, const PatchSurface& s, const Region& region,
+                                   const Regions& regions) {
+  std::vector<Index> near(3 * region.faces.size());
+  for_each(work, Cost::light, region.faces.size(), [&](std::size_t i) {
+    for (int k = 0; k < 3; ++k) {
+      const Index g = s.neighbour(region.faces[i], k);
+      near[3 * i + static_cast<std::size_t>(k)] =
+          g != kNone && regions.is_in(g, region.source, region.label) ? regions.position[g] : kNone;
+    }
+  });
+  return near;
+}
+
 // Balls of faces in breadth-first order, started at the lowest face left over.
 Index gather_balls(const Work& work, const PatchSurface& s, const Region& region, Index node_size,
-                   const Regions& regions, std::vector<Index>& node_of_face) {
+                   std::span<const Index> near, std::vector<Index>& node_of_face) {
   node_of_face.assign(region.faces.size(), kNone);
   std::vector<Index> ball;
   Index nodes = 0;
   for (std::size_t start = 0; start < region.faces.size(); ++start) {
     if (start % 4096 == 0) work.check();
     if (node_of_face[start] != kNone) continue;
-    ball.assign(1, region.faces[start]);
+    ball.assign(1, static_cast<Index>(start));
     node_of_face[start] = nodes;
-    const Vec3 n = s.normal[ball[0]];
+    const Vec3 n = s.normal[region.faces[start]];
     for (std::size_t i = 0; i < ball.size() && ball.size() < node_size; ++i)
-      for (int k = 0; k < 3 && ball.size() < node_size; ++k) {
-        const Index g = s.neighbour(ball[i], k);
-        if (g == kNone || !regions.is_in(g, region.source, region.label)) continue;
-        if (node_of_face[regions.position[g]] != kNone) continue;
-        if (s.area[g] > 0 && n.dot(s.normal[g]) < kBallTurn) continue;
-        node_of_face[regions.position[g]] = nodes;
+      for (std::size_t k = 0; k < 3 && ball.size() < node_size; ++k) {
+        const Index g = near[3 * std::size_t{ball[i]} + k];
+        if (g == kNone || node_of_face[g] != kNone) continue;
+        const Index f = region.faces[g];
+        if (s.area[f] > 0 && n.dot(s.normal[f]) < kBallTurn) continue;
+        node_of_face[g] = nodes;
         ball.push_back(g);
       }
     ++nodes;
@@ -36,30 +52,43 @@ Index gather_balls(const Work& work, const PatchSurface& s, const Region& region
   return nodes;
 }
 
-void link_nodes(const PatchSurface& s, const Region& region, const Regions& regions, RegionGraph& g) {
-  std::vector<std::uint64_t> link;
-  link.reserve(region.faces.size() * (g.is_faces ? 3 : 1));
-  for (std::size_t i = 0; i < region.faces.size(); ++i)
-    for (int k = 0; k < 3; ++k) {
-      const Index o = s.neighbour(region.faces[i], k);
-      if (o == kNone || !regions.is_in(o, region.source, region.label)) continue;
-      const Index a = g.node_of_face[i], b = g.node_of_face[regions.position[o]];
-      if (a != b) link.push_back(std::uint64_t{a} << 32 | b);
-    }
-  if (!g.is_faces) {
-    std::sort(link.begin(), link.end());
-    link.erase(std::unique(link.begin(), link.end()), link.end());
-  }
+// The graph of the faces themselves: rows ascending.
+void link_faces(const Work& work, std::span<const Index> near, RegionGraph& g) {
+  const std::size_t n = near.size() / 3;
+  g.offset.assign(n + 1, 0);
+  for_each(work, Cost::light, n, [&](std::size_t i) {
+    for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) g.offset[i] += near[k] != kNone ? 1 : 0;
+  });
+  g.other.resize(exclusive_scan<Index>(work, g.offset));
+  for_each(work, Cost::light, n, [&](std::size_t i) {
+    Index at = g.offset[i];
+    for (std::size_t k = 3 * i; k < 3 * i + 3; ++k)
+      if (near[k] != kNone) g.other[at++] = near[k];
+    std::sort(g.other.begin() + g.offset[i], g.other.begin() + at);
+  });
+}
+
+// The graph of the balls: rows ascending, each neighbour once.
+void link_nodes(const Work& work, std::span<const Index> near, const Csr& faces_of_node, RegionGraph& g) {
   g.offset.assign(std::size_t{g.nodes()} + 1, 0);
-  g.other.resize(link.size());
-  for (std::size_t i = 0; i < link.size(); ++i) {
-    ++g.offset[(link[i] >> 32) + 1];
-    g.other[i] = static_cast<Index>(link[i]);
-  }
-  for (Index n = 0; n < g.nodes(); ++n) {
-    g.offset[n + 1] += g.offset[n];
-    if (g.is_faces) std::sort(g.other.begin() + g.offset[n], g.other.begin() + g.offset[n + 1]);
-  }
+  std::vector<std::vector<Index>> found(block_count(Cost::heavy, g.nodes()));
+  for_each_block(work, Cost::heavy, g.nodes(), [&](std::size_t begin, std::size_t end, std::size_t b) {
+    std::vector<Index> row;
+    for (std::size_t node = begin; node < end; ++node) {
+      row.clear();
+      for (const Index i : faces_of_node.row(static_cast<Index>(node)))
+        for (std::size_t k = 3 * std::size_t{i}; k < 3 * std::size_t{i} + 3; ++k)
+          if (near[k] != kNone && g.node_of_face[near[k]] != node) row.push_back(g.node_of_face[near[k]]);
+      std::sort(row.begin(), row.end());
+      row.erase(std::unique(row.begin(), row.end()), row.end());
+      g.offset[node] = static_cast<Index>(row.size());
+      found[b].insert(found[b].end(), row.begin(), row.end());
+    }
+  });
+  g.other.resize(exclusive_scan<Index>(work, g.offset));
+  for_each_block(work, Cost::heavy, g.nodes(), [&](std::size_t begin, std::size_t, std::size_t b) {
+    std::copy(found[b].begin(), found[b].end(), g.other.begin() + g.offset[begin]);
+  });
 }
 
 Real step_length(const RegionGraph& g, Index a, Index b) {
@@ -70,20 +99,20 @@ Real step_length(const RegionGraph& g, Index a, Index b) {
 // Takes over every node that is nearer to the new seed than to those before it.
 void spread(const Work& work, const RegionGraph& g, Index seed, Index label, std::vector<Real>& distance,
             std::vector<Index>& labels) {
-  using Entry = std::pair<Real, Index>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  LeastFirst queue;
   distance[seed] = 0, labels[seed] = label;
-  queue.push({0, seed});
+  queue.push(0, seed, 0);
   for (Index step = 0; !queue.empty(); ++step) {
     if (step % 4096 == 0) work.check();
-    const auto [d, n] = queue.top();
-    queue.pop();
+    const auto top = queue.pop();
+    const Real d = top.value();
+    const Index n = top.first();
     if (d > distance[n] || labels[n] != label) continue;
     for (const Index o : g.row(n)) {
       const Real reached = d + step_length(g, n, o);
       if (reached < distance[o]) {
         distance[o] = reached, labels[o] = label;
-        queue.push({reached, o});
+        queue.push(reached, o, 0);
       }
     }
   }
@@ -101,34 +130,48 @@ RegionGraph make_region_graph(const Work& work, const PatchSurface& s, const Reg
                               const FaceVectors& normal, Regions& regions) {
   RegionGraph g;
   const std::size_t n = region.faces.size();
-  for (std::size_t i = 0; i < n; ++i) regions.position[region.faces[i]] = static_cast<Index>(i);
+  for_each(work, Cost::light, n, [&](std::size_t i) { regions.position[region.faces[i]] = static_cast<Index>(i); });
+  const std::vector<Index> near = rank_neighbours(work, s, region, regions);
   Index nodes = static_cast<Index>(n);
   g.is_faces = node_size <= 1;
   if (g.is_faces) {
     g.node_of_face.resize(n);
-    for (std::size_t i = 0; i < n; ++i) g.node_of_face[i] = static_cast<Index>(i);
+    for_each(work, Cost::light, n, [&](std::size_t i) { g.node_of_face[i] = static_cast<Index>(i); });
   } else {
-    nodes = gather_balls(work, s, region, node_size, regions, g.node_of_face);
+    nodes = gather_balls(work, s, region, node_size, near, g.node_of_face);
   }
-  g.area.assign(nodes, 0);
+  g.area.resize(nodes);
   g.normal_sum.resize(nodes), g.mean_normal.resize(nodes), g.centroid.resize(nodes);
-  std::vector<Index> count(nodes, 0);
-  Vec3Array plain(nodes);  // centroid of faces without area
-  for (std::size_t i = 0; i < n; ++i) {
-    const Index f = region.faces[i], node = g.node_of_face[i];
-    const Vec3 c = s.centroid(f);
-    g.area[node] += s.area[f];
-    g.normal_sum.set(node, g.normal_sum[node] + s.area[f] * s.normal[f]);
-    g.mean_normal.set(node, g.mean_normal[node] + s.area[f] * normal[f]);
-    g.centroid.set(node, g.centroid[node] + s.area[f] * c);
-    plain.set(node, plain[node] + c);
-    ++count[node];
-  }
-  for (Index i = 0; i < nodes; ++i) {
-    if (g.area[i] > 0) g.mean_normal.set(i, g.mean_normal[i] / g.area[i]);
-    g.centroid.set(i, g.area[i] > 0 ? Vec3(g.centroid[i] / g.area[i]) : Vec3(plain[i] / count[i]));
-  }
-  link_nodes(s, region, regions, g);
+  Csr faces_of_node;
+  if (!g.is_faces)
+    faces_of_node = build_csr(
+        work, nodes, n, [&](std::size_t i) { return g.node_of_face[i]; },
+        [](std::size_t i) { return static_cast<Index>(i); });
+  for_each(work, g.is_faces ? Cost::light : Cost::heavy, nodes, [&](std::size_t node) {
+    const Index own = static_cast<Index>(node);
+    const std::span<const Index> faces =
+        g.is_faces ? std::span<const Index>(&own, 1) : faces_of_node.row(static_cast<Index>(node));
+    Real area = 0;
+    Vec3 sum = Vec3::Zero(), mean = Vec3::Zero(), centroid = Vec3::Zero();
+    Vec3 plain = Vec3::Zero();  // centroid of faces without area
+    for (const Index i : faces) {
+      const Index f = region.faces[i];
+      const Vec3 c = s.centroid(f);
+      area += s.area[f];
+      sum += s.area[f] * s.normal[f];
+      mean += s.area[f] * normal[f];
+      centroid += s.area[f] * c;
+      plain += c;
+    }
+    g.area[node] = area;
+    g.normal_sum.set(node, sum);
+    g.mean_normal.set(node, area > 0 ? Vec3(mean / area) : mean);
+    g.centroid.set(node, area > 0 ? Vec3(centroid / area) : Vec3(plain / static_cast<Real>(faces.size())));
+  });
+  if (g.is_faces)
+    link_faces(work, near, g);
+  else
+    link_nodes(work, near, faces_of_node, g);
   return g;
 }
 
@@ -152,15 +195,15 @@ FarSeeds farthest_seeds(const Work& work, const RegionGraph& g, Index k) {
 }
 
 std::vector<Index> nearest_seed(const Work& work, const RegionGraph& g, std::span<const Index> seed) {
-  using Entry = std::tuple<Real, Index, Index>;  // distance, label, node
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  LeastFirst queue;  // distance, label, node
   std::vector<Index> label(g.nodes(), kNone);
   std::vector<Real> best(g.nodes(), std::numeric_limits<Real>::infinity());
-  for (Index i = 0; i < seed.size(); ++i) queue.push({0, i, seed[i]});
+  for (Index i = 0; i < seed.size(); ++i) queue.push(0, i, seed[i]);
   for (Index step = 0; !queue.empty(); ++step) {
     if (step % 4096 == 0) work.check();
-    const auto [d, l, n] = queue.top();
-    queue.pop();
+    const auto top = queue.pop();
+    const Real d = top.value();
+    const Index l = top.first(), n = top.second();
     if (label[n] != kNone) continue;
     label[n] = l;
     for (const Index o : g.row(n)) {
@@ -168,7 +211,7 @@ std::vector<Index> nearest_seed(const Work& work, const RegionGraph& g, std::spa
       const Real reached = d + step_length(g, n, o);
       if (reached <= best[o]) {
         best[o] = reached;
-        queue.push({reached, l, o});
+        queue.push(reached, l, o);
       }
     }
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/parallel/compact.h"
+#include "engine/parallel/reduce.h"
 #include "kernels/patches/measure_patches.h"
 
 namespace intarsia::kernels {
@@ -19,11 +21,27 @@ class Relaxation {
              Regions& regions)
       : s_(s), source_(source), first_(first_label), also_(also), options_(options), regions_(regions) {}
 
-  void fit(std::span<const Index> faces) {
-    Index most = 0;
-    for (const Index f : faces) most = std::max(most, regions_.label[f]);
+  void fit(const Work& work, std::span<const Index> faces) {
+    const Index most = reduce(
+        work, Cost::light, faces.size(), Index{0},
+        [&](std::size_t begin, std::size_t end) {
+          Index m = 0;
+          for (std::size_t i = begin; i < end; ++i) m = std::max(m, regions_.label[faces[i]]);
+          return m;
+        },
+        [](Index a, Index b) { return std::max(a, b); });
     proxy_.assign(std::size_t{most} + 1, Vec3::Zero());
-    for (const Index f : faces) proxy_[regions_.label[f]] += s_.area[f] * s_.normal[f];
+    constexpr Index kFew = 8;
+    if (most < kFew && faces.size() > 4096) {  // each region's sum in the order of the faces, regions side by side
+      for_each(work, Cost::single, proxy_.size(), [&](std::size_t l) {
+        Vec3 sum = Vec3::Zero();
+        for (const Index f : faces)
+          if (regions_.label[f] == l) sum += s_.area[f] * s_.normal[f];
+        proxy_[l] = sum;
+      });
+    } else {
+      for (const Index f : faces) proxy_[regions_.label[f]] += s_.area[f] * s_.normal[f];
+    }
     for (Vec3& p : proxy_)
       if (const Real length = p.norm(); length > 0) p /= length;
   }
@@ -145,12 +163,9 @@ class Relaxation {
 void relax_borders(const Work& work, const PatchSurface& s, Index source, std::span<const Index> faces,
                    Index first_label, Index also, const RelaxOptions& options, Regions& regions) {
   Relaxation relax(s, source, first_label, also, options, regions);
-  relax.fit(faces);
-  std::vector<Index> active;
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (i % 4096 == 0) work.check();
-    if (relax.on_border(faces[i])) active.push_back(faces[i]);
-  }
+  relax.fit(work, faces);
+  std::vector<Index> active = compact(work, faces.size(), [&](std::size_t i) { return relax.on_border(faces[i]); });
+  for (Index& f : active) f = faces[f];
   const auto unpinch = [&] {
     for (const Index f : active)
       for (int i = 0; i < 3; ++i) {
@@ -172,7 +187,7 @@ void relax_borders(const Work& work, const PatchSurface& s, Index source, std::s
             if (regions.source[g] == source && relax.is_movable_label(regions.label[g])) next.push_back(g);
     std::sort(next.begin(), next.end());
     next.erase(std::unique(next.begin(), next.end()), next.end());
-    if (options.fit_normals && pass + 1 < options.passes) relax.fit(faces);
+    if (options.fit_normals && pass + 1 < options.passes) relax.fit(work, faces);
     active.swap(next);
   }
 }
