@@ -31,8 +31,9 @@ def draw_stages(axis, runs):
     bottom = [0.0] * len(runs)
     for i, name in enumerate(names):
         height = [run["stages"].get(name, 0) * 1e6 / run["vertices"] for run in runs]
-        axis.bar(labels, height, bottom=bottom, label=name, color=COLOURS[i % len(COLOURS)], width=0.7)
+        axis.bar(range(len(runs)), height, bottom=bottom, label=name, color=COLOURS[i % len(COLOURS)], width=0.7)
         bottom = [b + h for b, h in zip(bottom, height)]
+    axis.set_xticks(range(len(runs)), labels)
     axis.set_ylabel("CPU seconds per million vertices")
     handles, texts = axis.get_legend_handles_labels()
     axis.legend(handles[::-1], texts[::-1], frameon=False, loc="center left", bbox_to_anchor=(1, 0.5))
