@@ -70,6 +70,18 @@ std::vector<Warning> as_warnings(const char* code, const std::vector<std::string
 
 }  // namespace
 
+std::vector<Warning> warnings_of(const Surface& a) {
+  std::vector<Warning> warnings;
+  for (std::size_t i = 0; i < kernels::kCleanActions; ++i) {
+    const kernels::Fault& fault = a.mended.done[i];
+    if (fault.count == 0) continue;
+    const auto action = static_cast<kernels::CleanAction>(i);
+    std::string text = std::to_string(fault.count) + " " + kernels::text_of(action) + " (first:";
+    for (const Index id : fault.first) text += " " + std::to_string(id);
+    warnings.push_back({std::string("cleaned-") + kernels::name_of(action), text + ")", fault.count, {}});
+  }
+  return warnings;
+}
 std::vector<Warning> warnings_of(const Network& a) { return as_warnings("network", a.warnings); }
 std::vector<Warning> warnings_of(const Patches& a) { return as_warnings("patches", a.warnings); }
 std::vector<Warning> warnings_of(const Layout& a) {

@@ -2,6 +2,7 @@
 // Every artefact has hash_of (its bits), bytes_of (memory it holds) and items_of (what it counts).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -20,6 +21,7 @@
 #include "kernels/ridges/sharp_edges.h"
 #include "kernels/scale/compute_scale.h"
 #include "kernels/surface/canonical_order.h"
+#include "kernels/surface/clean_soup.h"
 #include "kernels/surface/normals.h"
 
 namespace intarsia {
@@ -32,10 +34,21 @@ std::size_t items_of(const Soup& a);  // faces
 
 namespace intarsia::graph {
 
-// mesh -> surface: the input in canonical numbers and diagonal 1, with connectivity and normals.
+// What was mended to make a surface of the input, as far as it is still wanted. Vertices are in the surface's numbers,
+// triangles in the input's.
+struct Mended {
+  std::array<kernels::Fault, kernels::kCleanActions> done;  // by CleanAction
+  Index speck_pieces = 0;
+  std::vector<Index> copy;                 // vertices that are further copies of an input vertex, ascending
+  std::vector<Index> twin, twin_of;        // triangles that were dropped because they repeat others
+  std::vector<Index> welded, welded_into;  // vertices of the input that became others
+};
+
+// mesh -> surface: the input, mended, in canonical numbers and diagonal 1, with connectivity and normals.
 struct Surface {
   Mesh mesh;
-  kernels::SurfaceOrder order;  // canonical -> input numbers
+  kernels::SurfaceOrder order;  // canonical -> input numbers; several vertices of one number where fans were parted
+  Mended mended;
   kernels::BoxTransform box;
   Vec3Array face_normal;  // unit, 0 for faces without area
   Real area = 0;
@@ -114,6 +127,7 @@ struct Layout {
   std::vector<std::string> warnings;
 };
 
+std::vector<Warning> warnings_of(const Surface& a);  // one for each kind of mending
 std::vector<Warning> warnings_of(const Network& a);
 std::vector<Warning> warnings_of(const Patches& a);
 std::vector<Warning> warnings_of(const Layout& a);

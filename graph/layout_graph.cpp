@@ -10,7 +10,8 @@ namespace {
 
 std::uint64_t options_hash(const LayoutOptions& options) {
   Hash hash;
-  hash.add(options.mode), hash.add(options.form), hash.add(options.seed), hash.add(options.patches);
+  hash.add(options.mode), hash.add(options.form), hash.add(options.seed), hash.add(options.patches),
+      hash.add(options.clean.strict);
   visit_options(options, [&](const char* name, const auto& value, const char*, auto, auto) {
     hash.add(std::string_view(name));
     hash.add(static_cast<Real>(value));
@@ -32,7 +33,8 @@ void check_options(const LayoutOptions& options) {
 FeaturePorts add_feature_stages(Flow& flow, const Port<Soup>& soup, const LayoutOptions& options) {
   const std::uint64_t hash = options_hash(options);
   FeaturePorts p;
-  p.surface = add_stage(flow, Stage<Surface, Soup>{"surface", 1, hash, mesh_to_surface, {}, 1}, soup);
+  const auto surface = [clean = options.clean](const Work& w, const Soup& s) { return mesh_to_surface(w, s, clean); };
+  p.surface = add_stage(flow, Stage<Surface, Soup>{"surface", 2, hash, surface, {}, 1}, soup);
   const auto sharp = [options](const Work& w, const Surface& s) { return surface_to_sharp(w, s, options); };
   p.sharp = add_stage(flow, Stage<Sharp, Surface>{"surface", 1, hash, sharp, "sharp", 0.1}, p.surface);
   const auto scale = [options](const Work& w, const Surface& s, const Sharp& e) {

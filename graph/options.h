@@ -19,6 +19,7 @@
 #include "kernels/ridges/sharp_edges.h"
 #include "kernels/ridges/trace_ridges.h"
 #include "kernels/scale/compute_scale.h"
+#include "kernels/surface/clean_soup.h"
 
 namespace intarsia::graph {
 
@@ -59,7 +60,8 @@ struct LayoutOptions {
   SubdivideForm form = SubdivideForm::compact;
   std::uint64_t seed = 0;  // paper mode: random seeds of the subdivision
   Index patches = 0;       // wanted number of patches; 0 = automatic
-  bool barrier = true;     // fits do not cross sharp edges
+  kernels::CleanOptions clean;
+  bool barrier = true;  // fits do not cross sharp edges
   kernels::SharpOptions sharp;
   kernels::ScaleOptions scale;
   int fixed_ring = 0;  // 1 .. 6: every vertex is fitted in this ring, to show what the choice is for; 0 = chosen

@@ -11,8 +11,8 @@
 
 namespace intarsia::graph {
 
-// Errors: rejected, in the user's numbering.
-Surface mesh_to_surface(const Work& work, const Soup& soup);
+// Cleans it first. Errors: rejected, in the user's numbering.
+Surface mesh_to_surface(const Work& work, const Soup& soup, const kernels::CleanOptions& clean = {});
 Sharp surface_to_sharp(const Work& work, const Surface& surface, const LayoutOptions& options);
 Scale surface_to_scale(const Work& work, const Surface& surface, const Sharp& sharp, const LayoutOptions& options);
 Curvature scale_to_curvature(const Work& work, const Surface& surface, const Scale& scale, const Sharp& sharp,

@@ -9,6 +9,9 @@ namespace intarsia::graph {
 // v(name, variable, help, least, most); variable is Real, int, Index, std::uint8_t or bool.
 template <class Options, class V>
 void visit_options(Options& o, V&& v) {
+  v("clean.weld", o.clean.weld_distance, "border vertices nearer than this are joined, diagonals; 0 = none", 0.0, 0.01);
+  v("clean.specks", o.clean.speck_area, "pieces below this share of the area are left out; 0 = none", 0.0, 0.5);
+  v("clean.outward", o.clean.turn_outward, "turn closed pieces that face inwards", 0, 1);
   v("sharp.strong", o.sharp.strong, "dihedral turn that makes a mesh edge sharp, radians", 0.1, 3.1);
   v("sharp.weak", o.sharp.weak, "turn of an edge that continues a sharp chain, radians", 0.05, 3.1);
   v("sharp.min-length", o.sharp.min_length, "shortest connected set of sharp edges, diagonals", 0.0, 1.0);

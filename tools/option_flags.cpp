@@ -23,6 +23,7 @@ void add_common_flags(CLI::App& app, CommonFlags& flags) {
   app.add_option("--max-memory", flags.max_memory,
                  "refuse at once what would need more memory, by forecast: bytes, or with K M G (of 1024)")
       ->transform(CLI::AsSizeValue(false));
+  app.add_flag("--strict", flags.strict, "refuse a mesh that is no oriented 2-manifold instead of mending it");
   app.add_option("--report", flags.report, "write the report to this file too");
   app.add_option("--trace", flags.trace, "write a Chrome trace of the stages to this file");
   app.add_flag("-q,--quiet", flags.quiet, "print nothing but errors");
@@ -49,6 +50,7 @@ void OptionFlags::add_to(CLI::App& app) {
 graph::LayoutOptions OptionFlags::options(const CommonFlags& common) const {
   graph::LayoutOptions options = common.mode == "paper" ? graph::paper_options(common.seed) : graph::robust_options();
   options.seed = common.seed;
+  options.clean.strict = common.strict;
   if (!common.subdivide.empty())
     options.form = common.subdivide == "faithful"  ? graph::SubdivideForm::faithful
                    : common.subdivide == "quality" ? graph::SubdivideForm::quality

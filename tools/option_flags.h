@@ -16,6 +16,7 @@ struct CommonFlags {
   int threads = 0;
   std::uint64_t max_memory = 0;  // bytes; 0 = no limit
   std::uint64_t seed = 0;
+  bool strict = false;
   bool quiet = false;
 };
 

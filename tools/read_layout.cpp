@@ -15,6 +15,7 @@
 #include "kernels/layout/trace_boundaries.h"
 #include "kernels/patches/flood_patches.h"
 #include "kernels/surface/check_soup.h"
+#include "kernels/surface/clean_soup.h"
 
 namespace intarsia::tools {
 namespace {
@@ -183,11 +184,22 @@ LayoutFromFile read_result_folder(const Work& work, const std::filesystem::path&
                                          "layout.ply and network.json");
   LayoutFromFile layout;
   layout.soup = read_mesh(work, folder / "patches.ply");
+  const Index given = layout.soup.face_count();
+  kernels::Cleaning cleaning = kernels::clean_soup(work, layout.soup, {});
+  if (cleaning.changed) layout.soup = std::move(cleaning.soup);
   layout.box = kernels::normalise_box(work, layout.soup);
   layout.mesh = normalised(work, layout.soup, layout.box);
   const std::filesystem::path refined = folder / "layout.ply";
   layout.refined.mesh = normalised(work, read_mesh(work, refined), layout.box);
-  layout.refined.parent = whole_numbers(work, refined, "parent", layout.soup.face_count());
+  layout.refined.parent = whole_numbers(work, refined, "parent", given);
+  if (cleaning.changed)
+    for (Index& parent : layout.refined.parent) {
+      parent = cleaning.triangle_of[parent];
+      if (parent == kNone)
+        throw Error(ErrorCode::bad_file, refined.string() +
+                                             ": a face comes from a triangle that cleaning drops; let "
+                                             "intarsia run write it again without --clean options");
+    }
   const std::filesystem::path network = folder / "network.json";
   layout.graph = NetworkReader(network, layout.refined.mesh).read();
   layout.label = whole_numbers(work, refined, "patch", layout.graph.patch_count());
@@ -202,6 +214,13 @@ LayoutFromFile read_labelled_mesh(const Work& work, const LabelledMesh& input) {
   number_labels(labels_of_triangles(labels, read_face_labels(work, labels, input.property), layout.soup.source_face,
                                     layout.soup.face_count()),
                 label);
+  kernels::Cleaning cleaning = kernels::clean_soup(work, layout.soup, {});
+  if (cleaning.changed) {
+    layout.soup = std::move(cleaning.soup);
+    std::vector<Index> kept;
+    for (const Index t : cleaning.input_triangle) kept.push_back(label[t]);
+    label = std::move(kept);
+  }
   layout.box = kernels::normalise_box(work, layout.soup);
   layout.mesh = normalised(work, layout.soup, layout.box);
   if (input.smooth)

@@ -19,6 +19,7 @@ void write_layout_files(const Work& work, const OutputFolder& folder, const Soup
   LayoutView parts;
   parts.soup = &soup;
   parts.vertex_order = surface.order.vertex, parts.face_order = surface.order.face;
+  parts.copies = surface.mended.copy, parts.twin = surface.mended.twin, parts.twin_of = surface.mended.twin_of;
   parts.centre = surface.box.centre, parts.diagonal = surface.box.diagonal;
   parts.refined = &layout.refined, parts.labels = &layout.labels, parts.graph = &layout.graph;
   parts.interior = &layout.interior, parts.mesh = surface.mesh, parts.face_patch = layout.face_patch;

@@ -20,18 +20,23 @@ void add_positions(Element& element, bool single, const Soup& soup) {
 
 void write_patches_ply(const Work& work, const std::filesystem::path& path, const LayoutView& layout) {
   const Soup& soup = *layout.soup;
-  std::vector<Index> patch(soup.face_count(), 0);
+  std::vector<Index> patch(soup.face_count(), kNone);
   for_each(work, Cost::light, layout.face_order.size(),
            [&](std::size_t f) { patch[layout.face_order[f]] = layout.face_patch[f]; });
+  for (std::size_t i = 0; i < layout.twin.size(); ++i) patch[layout.twin[i]] = patch[layout.twin_of[i]];
   PlyFile ply;
   ply.comment("intarsia patches: faces in the order of the input, int patch per face");
   auto& vertex = ply.element("vertex", soup.vertex_count());
   add_positions(vertex, is_single_precision(work, soup, soup.vertex_count(), [](std::size_t v) { return v; }), soup);
   auto& face = ply.element("face", soup.face_count());
-  face.triangles(soup.corner).column<std::int32_t>("patch", patch);
+  face.triangles(soup.corner).column<std::int32_t>("patch", [&](std::size_t f) {
+    return patch[f] == kNone ? -1 : static_cast<int>(patch[f]);
+  });
   const char* channel[] = {"red", "green", "blue"};
   for (int i = 0; i < 3; ++i)
-    face.column<std::uint8_t>(channel[i], [&, i](std::size_t f) { return layout.patch_colour[patch[f]][i]; });
+    face.column<std::uint8_t>(channel[i], [&, i](std::size_t f) {
+      return patch[f] == kNone ? std::uint8_t{128} : layout.patch_colour[patch[f]][i];
+    });
   if (!soup.source_face.empty()) face.column<std::int32_t>("source_face", soup.source_face);
   write_ply(work, path, ply);
 }
@@ -41,6 +46,7 @@ void write_layout_ply(const Work& work, const std::filesystem::path& path, const
   const RefinedMesh& refined = *layout.refined;
   const MeshView mesh = refined.mesh;
   const Index originals = static_cast<Index>(layout.vertex_order.size());
+  const Index copies = static_cast<Index>(layout.copies.size()), given = soup.vertex_count();
   const Index added = mesh.vertex_count() - originals, faces = mesh.face_count();
 
   // Refined faces by their input triangle: counting sort, refined order inside a triangle.
@@ -56,10 +62,12 @@ void write_layout_ply(const Work& work, const std::filesystem::path& path, const
 
   PlyFile ply;
   ply.comment("intarsia layout: a refinement of the input whose edges carry all curves");
-  auto& vertex = ply.element("vertex", std::size_t{soup.vertex_count()} + added);
-  const auto coordinate = [&](const std::vector<Real>& given, int axis) {
-    return [&, axis, data = given.data(), n = soup.vertex_count()](std::size_t v) {
-      return v < n ? data[v] : layout_point(layout, originals + static_cast<Index>(v - n))[axis];
+  auto& vertex = ply.element("vertex", std::size_t{given} + copies + added);
+  const auto coordinate = [&](const std::vector<Real>& input, int axis) {
+    return [&, axis, data = input.data()](std::size_t v) {
+      if (v < given) return data[v];
+      const Index i = static_cast<Index>(v) - given;
+      return layout_point(layout, i < copies ? layout.copies[i] : originals + i - copies)[axis];
     };
   };
   vertex.column<double>("x", coordinate(soup.x, 0)).column<double>("y", coordinate(soup.y, 1));

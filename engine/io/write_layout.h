@@ -1,6 +1,7 @@
 // The layout as files in the user's numbering: patches.ply, layout.ply, network.ply, network.json (docs/formats.md).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -19,7 +20,10 @@ struct LayoutView {
   const Soup* soup = nullptr;           // as read
   std::span<const Index> vertex_order;  // canonical vertex -> soup vertex
   std::span<const Index> face_order;    // canonical face -> soup triangle
-  Vec3 centre = Vec3::Zero();           // input position = centre + diagonal * normalised position
+  std::span<const Index> copies;        // canonical vertices that are further copies of a soup vertex, ascending
+  std::span<const Index> twin;          // soup triangles that repeat twin_of[i]: labelled as those
+  std::span<const Index> twin_of;
+  Vec3 centre = Vec3::Zero();  // input position = centre + diagonal * normalised position
   Real diagonal = 1;
   const RefinedMesh* refined = nullptr;    // of the canonical mesh
   const PatchLabels* labels = nullptr;     // of the refined faces
@@ -32,12 +36,12 @@ struct LayoutView {
 
 // Errors of all: write_failed naming the file, numeric, cancelled.
 
-// The input's vertices and triangles in its order; faces with int patch, uchar red green blue, and int source_face if
-// polygons were split. Coordinates are double where float would round them.
+// The input's vertices and triangles in its order; faces with int patch (-1: left out by cleaning), uchar red green
+// blue, and int source_face if polygons were split. Coordinates are double where float would round them.
 void write_patches_ply(const Work& work, const std::filesystem::path& path, const LayoutView& layout);
 
-// The refinement whose edges carry all curves: the input's vertices first, in its order, then the new ones; faces with
-// int patch and int parent (triangle of the input), ascending by parent.
+// The refinement whose edges carry all curves: the input's vertices first, in its order, then copies, then new ones;
+// faces with int patch and int parent (triangle of the input), ascending by parent.
 void write_layout_ply(const Work& work, const std::filesystem::path& path, const LayoutView& layout);
 
 // Vertices of the network and its edges with int vertex1 vertex2 curve kind; curve = arc of network.json.
@@ -49,7 +53,11 @@ void write_network_json(const Work& work, const std::filesystem::path& path, con
 // Number of a refined vertex in layout.ply.
 inline Index layout_vertex(const LayoutView& l, Index v) {
   const Index originals = static_cast<Index>(l.vertex_order.size());
-  return v < originals ? l.vertex_order[v] : l.soup->vertex_count() + v - originals;
+  const Index given = l.soup->vertex_count(), copies = static_cast<Index>(l.copies.size());
+  if (v >= originals) return given + copies + v - originals;
+  const auto copy = std::lower_bound(l.copies.begin(), l.copies.end(), v);
+  if (copy != l.copies.end() && *copy == v) return given + static_cast<Index>(copy - l.copies.begin());
+  return l.vertex_order[v];
 }
 
 // Position of a refined vertex in the input's units: the input's own bits where it is an input vertex.

@@ -43,40 +43,11 @@ bool has_area(const Soup& s, Index f) {
   return m > 0 && n > 0 && (u / m).cross(w / n).squaredNorm() > 0;
 }
 
-void check_faces(const Work& work, const Soup& soup) {
-  if (soup.corner.size() >= kNone)
-    throw Error(ErrorCode::too_large, "the mesh has more than " + text(kNone / 3) + " triangles; reduce it");
-  if (soup.corner.empty()) throw Error(ErrorCode::rejected, "the mesh has no faces; give a triangle surface");
-  const auto face = [&](Index f) { return &soup.corner[3 * std::size_t{f}]; };
-  const Index faces = soup.face_count(), vertices = soup.vertex_count();
-  const Index out = first_bad(
-      work, faces, [&](Index f) { return face(f)[0] >= vertices || face(f)[1] >= vertices || face(f)[2] >= vertices; });
-  if (out != kNone)
-    throw Error(ErrorCode::rejected,
-                "face " + text(soup.source_of(out)) + " names a vertex that does not exist" + kRepairHint,
-                soup.source_of(out));
-  const Index repeated = first_bad(work, faces, [&](Index f) {
-    return face(f)[0] == face(f)[1] || face(f)[1] == face(f)[2] || face(f)[2] == face(f)[0];
+Index first_repeated(const Work& work, const Soup& soup) {
+  return first_bad(work, soup.face_count(), [&](Index f) {
+    const Index* c = &soup.corner[3 * std::size_t{f}];
+    return c[0] == c[1] || c[1] == c[2] || c[2] == c[0];
   });
-  if (repeated != kNone)
-    throw Error(ErrorCode::rejected,
-                "face " + text(soup.source_of(repeated)) + " uses a vertex twice; remove such faces and try again",
-                soup.source_of(repeated));
-  const Index endless = reduce(
-      work, Cost::light, soup.corner.size(), kNone,
-      [&](std::size_t begin, std::size_t end) {
-        Index worst = kNone;
-        for (std::size_t c = begin; c < end; ++c)
-          if (!point(soup, soup.corner[c]).allFinite()) worst = std::min(worst, soup.corner[c]);
-        return worst;
-      },
-      smallest);
-  if (endless != kNone)
-    throw Error(ErrorCode::rejected,
-                "vertex " + text(endless) + " has a coordinate that is not a finite number; remove it and its faces",
-                endless);
-  if (first_bad(work, faces, [&](Index f) { return has_area(soup, f); }) == kNone)
-    throw Error(ErrorCode::rejected, "no face has an area; check the export of the mesh");
 }
 
 enum class Defect : std::uint8_t { none, crowded_edge, direction, fan };
@@ -107,6 +78,11 @@ struct Star {
   }
   std::size_t faces_on(Index v) const { return count(next, v) + count(prev, v); }
 
+  // True if some edge at the vertex has one face.
+  bool is_open() const {
+    const auto alone = [this](Index v) { return faces_on(v) == 1; };
+    return std::any_of(next.begin(), next.end(), alone) || std::any_of(prev.begin(), prev.end(), alone);
+  }
   // Only spokes to larger vertices are asked, so that each edge is judged once.
   Defect edge_defect(Index v, Index& other) const {
     Defect worst = Defect::none;
@@ -146,7 +122,8 @@ struct Star {
 
 // True if the star is beyond doubt in order: few faces, no two of them running along an edge in the same direction, and
 // one fan. Most stars are; the others are looked at closely.
-bool is_plain_star(const Soup& soup, std::span<const Index> corners) {
+// Then `open` tells whether it is open.
+bool is_plain_star(const Soup& soup, std::span<const Index> corners, bool& open) {
   constexpr std::size_t kFew = 12;
   const std::size_t n = corners.size();
   if (n > kFew) return false;
@@ -169,6 +146,7 @@ bool is_plain_star(const Soup& soup, std::span<const Index> corners) {
     followed += follower[i] < n;
   }
   if (followed + 1 < n) return false;
+  open = followed < n;
   std::size_t first = 0;
   if (followed < n) {
     std::size_t sum = n * (n - 1) / 2;  // of all faces, less those that follow one: what follows none
@@ -209,19 +187,27 @@ struct Finding {
               lowest);
 }
 
-void check_stars(const Work& work, const Soup& soup) {
-  const Csr corners = build_csr(
+Csr corners_by_vertex(const Work& work, const Soup& soup) {
+  return build_csr(
       work, soup.vertex_count(), soup.corner.size(), [&](std::size_t c) { return soup.corner[c]; },
       [](std::size_t c) { return static_cast<Index>(c); });
-  const Finding found = reduce(
+}
+
+// on_border: per vertex, set where the star is open; may be null.
+Finding judge_stars(const Work& work, const Soup& soup, const Csr& corners, std::uint8_t* on_border) {
+  return reduce(
       work, Cost::light, corners.rows(), Finding{},
       [&](std::size_t begin, std::size_t end) {
         Finding part;
         Star star;
         for (std::size_t i = begin; i < end; ++i) {
           const Index v = static_cast<Index>(i);
-          if (is_plain_star(soup, corners.row(v))) continue;
+          bool open = false;
+          const bool plain = is_plain_star(soup, corners.row(v), open);
+          if (on_border) on_border[v] = open ? 1 : 0;
+          if (plain) continue;
           star.read(soup, corners.row(v));
+          if (on_border) on_border[v] = star.is_open() ? 1 : 0;
           Index other = kNone;
           const Defect d = star.edge_defect(v, other);
           if (d == Defect::crowded_edge) part.crowded = std::min(part.crowded, v);
@@ -233,6 +219,11 @@ void check_stars(const Work& work, const Soup& soup) {
       [](const Finding& a, const Finding& b) {
         return Finding{std::min(a.crowded, b.crowded), std::min(a.direction, b.direction), std::min(a.fan, b.fan)};
       });
+}
+
+void check_stars(const Work& work, const Soup& soup) {
+  const Csr corners = corners_by_vertex(work, soup);
+  const Finding found = judge_stars(work, soup, corners, nullptr);
   if (found.crowded != kNone) refuse_edge(soup, corners, found.crowded, Defect::crowded_edge);
   if (found.direction != kNone) refuse_edge(soup, corners, found.direction, Defect::direction);
   if (found.fan != kNone)
@@ -244,9 +235,53 @@ void check_stars(const Work& work, const Soup& soup) {
 
 }  // namespace
 
+void check_corners(const Work& work, const Soup& soup) {
+  if (soup.corner.size() >= kNone)
+    throw Error(ErrorCode::too_large, "the mesh has more than " + text(kNone / 3) + " triangles; reduce it");
+  if (soup.corner.empty()) throw Error(ErrorCode::rejected, "the mesh has no faces; give a triangle surface");
+  const auto face = [&](Index f) { return &soup.corner[3 * std::size_t{f}]; };
+  const Index faces = soup.face_count(), vertices = soup.vertex_count();
+  const Index out = first_bad(
+      work, faces, [&](Index f) { return face(f)[0] >= vertices || face(f)[1] >= vertices || face(f)[2] >= vertices; });
+  if (out != kNone)
+    throw Error(ErrorCode::rejected,
+                "face " + text(soup.source_of(out)) + " names a vertex that does not exist" + kRepairHint,
+                soup.source_of(out));
+  const Index endless = reduce(
+      work, Cost::light, soup.corner.size(), kNone,
+      [&](std::size_t begin, std::size_t end) {
+        Index worst = kNone;
+        for (std::size_t c = begin; c < end; ++c)
+          if (!point(soup, soup.corner[c]).allFinite()) worst = std::min(worst, soup.corner[c]);
+        return worst;
+      },
+      smallest);
+  if (endless != kNone)
+    throw Error(ErrorCode::rejected,
+                "vertex " + text(endless) + " has a coordinate that is not a finite number; remove it and its faces",
+                endless);
+  if (first_bad(work, faces, [&](Index f) { return has_area(soup, f); }) == kNone)
+    throw Error(ErrorCode::rejected, "no face has an area; check the export of the mesh");
+}
+
 void check_soup(const Work& work, const Soup& soup) {
-  check_faces(work, soup);
+  check_corners(work, soup);
+  const Index repeated = first_repeated(work, soup);
+  if (repeated != kNone)
+    throw Error(ErrorCode::rejected,
+                "face " + text(soup.source_of(repeated)) + " uses a vertex twice; remove such faces and try again",
+                soup.source_of(repeated));
   check_stars(work, soup);
+}
+
+SoupState look_at_soup(const Work& work, const Soup& soup) {
+  SoupState state;
+  state.repeated_corners = first_repeated(work, soup) != kNone;
+  if (state.repeated_corners) return state;
+  state.on_border.assign(soup.vertex_count(), 0);
+  const Finding found = judge_stars(work, soup, corners_by_vertex(work, soup), state.on_border.data());
+  state.is_surface = found.crowded == kNone && found.direction == kNone && found.fan == kNone;
+  return state;
 }
 
 }  // namespace intarsia::kernels

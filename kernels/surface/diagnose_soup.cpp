@@ -37,14 +37,6 @@ Vec3 point(const Soup& soup, Index v) { return {soup.x[v], soup.y[v], soup.z[v]}
 
 bool repeats(const std::array<Index, 3>& c) { return c[0] == c[1] || c[1] == c[2] || c[2] == c[0]; }
 
-// `named`: ids in any order.
-Fault fault_of(std::vector<Index> named, std::uint64_t count) {
-  std::sort(named.begin(), named.end());
-  named.erase(std::unique(named.begin(), named.end()), named.end());
-  if (named.size() > Fault::kNamed) named.resize(Fault::kNamed);
-  return {count, std::move(named)};
-}
-
 class Diagnosis {
  public:
   Diagnosis(const Work& work, const Soup& soup)

@@ -3,19 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "engine/data/mesh.h"
 #include "engine/parallel/work.h"
+#include "kernels/surface/fault.h"
 
 namespace intarsia::kernels {
-
-// Elements of one kind of fault. first: the smallest ids, at most kNamed; faces as Soup::source_of names them.
-struct Fault {
-  static constexpr std::size_t kNamed = 5;
-  std::uint64_t count = 0;
-  std::vector<Index> first;
-};
 
 struct SoupDiagnosis {
   std::uint64_t vertices = 0, triangles = 0, edges = 0;
