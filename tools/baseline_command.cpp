@@ -55,8 +55,8 @@ int baseline(const BaselineFlags& flags) {
   const auto write = [&](const Work& work, const Soup& s, const graph::Surface& surface, const graph::Network& network,
                          const graph::Patches& patches, const graph::Layout& layout) {
     add_layout_report(summary, s, surface, network, layout, options.patches);
-    return write_baseline(work, folder, s, surface, patches, layout, graph::name_of(method),
-                          pictures_of(flags.picture));
+    return write_baseline(work, folder, s, surface, patches, layout, graph::name_of(method), pictures_of(flags.picture),
+                          {});
   };
   using WriteStage = Stage<Written, Soup, graph::Surface, graph::Network, graph::Patches, graph::Layout>;
   add_stage(command.flow(), WriteStage{"write", 1, 0, write, {}, 1.5}, command.soup(), ports.features.surface,

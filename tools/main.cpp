@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
   int exit_code = kExitDone;
   add_run_command(app, exit_code);
   add_batch_command(app, exit_code);
+  add_convert_command(app, exit_code);
   add_features_command(app, exit_code);
   add_info_command(app, exit_code);
   add_make_command(app, exit_code);

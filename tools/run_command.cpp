@@ -12,6 +12,7 @@
 #include "tools/report.h"
 #include "tools/stage_command.h"
 #include "tools/view_flag.h"
+#include "tools/write_flag.h"
 #include "tools/write_result.h"
 
 namespace intarsia::tools {
@@ -21,6 +22,7 @@ struct RunFlags {
   std::string input, output;
   Index patches = 0;
   PictureFlags picture;
+  WriteFlag write;
   CommonFlags common;
   OptionFlags method;
 };
@@ -30,13 +32,16 @@ void print_summary(const nlohmann::json& report, const std::filesystem::path& fo
              report["counts"]["arcs"].get<int>(), report["counts"]["nodes"].get<int>(), report["seconds"].get<double>(),
              report["threads"].get<int>());
   for (const auto& w : report["warnings"]) spdlog::warn("{}", w["message"].get<std::string>());
-  fmt::print("written to {}: patches.ply layout.ply network.ply network.json report.json preview.png\n",
-             (folder / "").string());
+  std::string names;
+  for (const std::string& name : result_names())
+    if (std::filesystem::exists(folder / name)) names += " " + name;
+  fmt::print("written to {}:{}\n", (folder / "").string(), names);
 }
 
 int run(const RunFlags& flags) {
   graph::LayoutOptions options = flags.method.options(flags.common);
   options.patches = flags.patches;
+  const Exports exports = flags.write.exports(flags.input);
   StageCommand command("run", flags.input, flags.common);
   OutputFolder folder(flags.output, result_names());
   const graph::LayoutPorts ports = graph::add_layout_stages(command.flow(), command.soup(), options);
@@ -46,7 +51,7 @@ int run(const RunFlags& flags) {
                          const graph::Layout& layout) {
     add_layout_report(summary, s, surface, smoothing.network, layout, options.patches);
     return write_result(work, folder, s, surface, ridges, valleys, sharp, smoothing.network, layout,
-                        pictures_of(flags.picture));
+                        pictures_of(flags.picture), exports);
   };
   using WriteStage =
       Stage<Written, Soup, graph::Surface, graph::Ridges, graph::Ridges, graph::Sharp, graph::Smoothing, graph::Layout>;
@@ -73,6 +78,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("-n,--patches", flags->patches, "wanted number of patches; 0 = automatic")
       ->check(CLI::NonNegativeNumber);
   add_picture_flags(*command, flags->picture);
+  add_write_flag(*command, flags->write, "csv,npy");
   add_common_flags(*command, flags->common);
   flags->method.add_to(*command);
   command->callback([flags, &exit_code] { exit_code = run(*flags); });

@@ -12,24 +12,41 @@ std::vector<Rgb> colours_of(const Work& work, const graph::Layout& layout) {
                        adjacent_patches(work, layout.refined.mesh, layout.labels.patch_of_face, layout.labels.count));
 }
 
-void write_layout_files(const Work& work, const OutputFolder& folder, const Soup& soup, const graph::Surface& surface,
-                        const graph::Layout& layout, const std::vector<Rgb>& colour) {
-  std::vector<std::array<std::uint8_t, 3>> rgb;
-  for (const Rgb& c : colour) rgb.push_back({c.r, c.g, c.b});
-  LayoutView parts;
+// A view of its arguments, which must outlive it.
+Handover handover_of(const Work& work, const Soup& soup, const graph::Surface& surface, const graph::Layout& layout,
+                     const std::vector<std::array<std::uint8_t, 3>>& colour, const std::string& name) {
+  Handover handover;
+  LayoutView& parts = handover.layout;
   parts.soup = &soup;
   parts.vertex_order = surface.order.vertex, parts.face_order = surface.order.face;
   parts.copies = surface.mended.copy, parts.twin = surface.mended.twin, parts.twin_of = surface.mended.twin_of;
   parts.centre = surface.box.centre, parts.diagonal = surface.box.diagonal;
   parts.refined = &layout.refined, parts.labels = &layout.labels, parts.graph = &layout.graph;
   parts.interior = &layout.interior, parts.mesh = surface.mesh, parts.face_patch = layout.face_patch;
-  parts.patch_colour = rgb;
-
-  write_patches_ply(work, folder.file("patches.ply"), parts);
-  write_layout_ply(work, folder.file("layout.ply"), parts);
-  write_network_ply(work, folder.file("network.ply"), parts);
-  write_network_json(work, folder.file("network.json"), parts);
+  parts.patch_colour = colour;
+  handover.name = name;
+  complete(work, handover);
+  return handover;
 }
+
+std::vector<std::array<std::uint8_t, 3>> bytes_of(const std::vector<Rgb>& colour) {
+  std::vector<std::array<std::uint8_t, 3>> rgb;
+  for (const Rgb& c : colour) rgb.push_back({c.r, c.g, c.b});
+  return rgb;
+}
+
+void write_layout_files(const Work& work, const OutputFolder& folder, const Handover& handover,
+                        const Exports& exports) {
+  const LayoutView& layout = handover.layout;
+  write_patches_ply(work, folder.file("patches.ply"), layout);
+  write_layout_ply(work, folder.file("layout.ply"), layout);
+  write_network_ply(work, folder.file("network.ply"), layout);
+  write_network_json(work, folder.file("network.json"), layout);
+  write_exports(work, handover, exports.files, [&](const std::string& name) { return folder.file(name); });
+}
+
+// The run's lines cost a copy: made only where a file needs them.
+bool needs_features(const FileSet& files) { return files.contains("features.vtp"); }
 
 void draw(const Work& work, const OutputFolder& folder, Strip strip, const Pictures& pictures) {
   strip.options.view = pictures.view;
@@ -39,9 +56,10 @@ void draw(const Work& work, const OutputFolder& folder, Strip strip, const Pictu
 
 Written count_files(const OutputFolder& folder) {
   Written written;
+  const std::filesystem::path fresh = folder.file("patches.ply").parent_path();
   for (const std::string& name : result_names()) {
     std::error_code error;
-    const auto size = std::filesystem::file_size(folder.file(name), error);
+    const auto size = std::filesystem::file_size(fresh / name, error);
     if (!error) ++written.files, written.bytes += size;
   }
   return written;
@@ -50,23 +68,33 @@ Written count_files(const OutputFolder& folder) {
 }  // namespace
 
 std::vector<std::string> result_names() {
-  return {"patches.ply", "layout.ply", "network.ply", "network.json", "report.json", "preview.png"};
+  std::vector<std::string> names = {"patches.ply",  "layout.ply",  "network.ply",
+                                    "network.json", "report.json", "preview.png"};
+  for (std::string& name : export_names()) names.push_back(std::move(name));
+  return names;
 }
 
 Written write_result(const Work& work, const OutputFolder& folder, const Soup& soup, const graph::Surface& surface,
                      const graph::Ridges& ridges, const graph::Ridges& valleys, const graph::Sharp& sharp,
-                     const graph::Network& network, const graph::Layout& layout, const Pictures& pictures) {
+                     const graph::Network& network, const graph::Layout& layout, const Pictures& pictures,
+                     const Exports& exports) {
   const std::vector<Rgb> colour = colours_of(work, layout);
-  write_layout_files(work, folder, soup, surface, layout, colour);
+  const auto rgb = bytes_of(colour);
+  Handover handover = handover_of(work, soup, surface, layout, rgb, exports.name);
+  FeatureLines features;
+  if (needs_features(exports.files))
+    features = feature_lines(work, surface, ridges, valleys, sharp, network), handover.features = &features;
+  write_layout_files(work, folder, handover, exports);
   draw(work, folder, preview_strip({surface, ridges, valleys, sharp, network, layout, colour}), pictures);
   return count_files(folder);
 }
 
 Written write_baseline(const Work& work, const OutputFolder& folder, const Soup& soup, const graph::Surface& surface,
                        const graph::Patches& patches, const graph::Layout& layout, const std::string& method,
-                       const Pictures& pictures) {
+                       const Pictures& pictures, const Exports& exports) {
   const std::vector<Rgb> colour = colours_of(work, layout);
-  write_layout_files(work, folder, soup, surface, layout, colour);
+  const auto rgb = bytes_of(colour);
+  write_layout_files(work, folder, handover_of(work, soup, surface, layout, rgb, exports.name), exports);
   draw(work, folder, baseline_strip({surface, patches, layout, method, colour}), pictures);
   return count_files(folder);
 }

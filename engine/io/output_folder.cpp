@@ -116,13 +116,27 @@ OutputFolder::~OutputFolder() {
 fs::path OutputFolder::file(const std::string& name) const {
   if (std::find(our_names_.begin(), our_names_.end(), name) == our_names_.end())
     throw Error(ErrorCode::internal, "'" + name + "' is not in the list of result files");
-  return fresh_ / name;
+  const fs::path path = fresh_ / name;
+  if (path.parent_path() != fresh_ && ::mkdir(path.parent_path().c_str(), 0777) != 0 && errno != EEXIST)
+    throw_write_failed(target_ / name, "cannot be written: no folder can be made for it", errno);
+  return path;
 }
 
+// A folder of results is ours if all that it holds is; then a user has put nothing into it.
 bool OutputFolder::is_ours(const fs::directory_entry& entry) const {
+  const auto is_listed = [&](const std::string& name) {
+    return std::find(our_names_.begin(), our_names_.end(), name) != our_names_.end();
+  };
   const std::string name = entry.path().filename().string();
-  return !is_folder(entry.path()) &&
-         (std::find(our_names_.begin(), our_names_.end(), name) != our_names_.end() || is_temporary_name(name));
+  if (!is_folder(entry.path())) return is_listed(name) || is_temporary_name(name);
+  const auto is_inside = [&](const std::string& ours) { return ours.starts_with(name + "/"); };
+  if (std::none_of(our_names_.begin(), our_names_.end(), is_inside)) return false;
+  std::error_code error;
+  const auto inside = list(entry.path(), error);
+  return !error && std::all_of(inside.begin(), inside.end(), [&](const fs::directory_entry& e) {
+    const std::string file = e.path().filename().string();
+    return !is_folder(e.path()) && (is_listed(name + "/" + file) || is_temporary_name(file));
+  });
 }
 
 void OutputFolder::commit() {
@@ -130,6 +144,8 @@ void OutputFolder::commit() {
     const std::string name = entry.path().filename().string();
     if (is_temporary_name(name) || !is_ours(entry))
       throw Error(ErrorCode::internal, "'" + name + "' among the results is not in the list of result files");
+    if (is_folder(entry.path()))
+      for (const auto& inside : entries_of(entry.path())) make_durable(inside.path());
     make_durable(entry.path());
   }
   make_durable(fresh_);
@@ -184,8 +200,12 @@ void OutputFolder::exchange() {
 
 void OutputFolder::remove_ours(const fs::path& folder) const {
   std::error_code ignored;
-  for (const auto& entry : list(folder, ignored))
-    if (is_ours(entry)) fs::remove(entry.path(), ignored);
+  for (const auto& entry : list(folder, ignored)) {
+    if (!is_ours(entry)) continue;
+    if (is_folder(entry.path()))
+      for (const auto& inside : list(entry.path(), ignored)) fs::remove(inside.path(), ignored);
+    fs::remove(entry.path(), ignored);
+  }
   fs::remove(folder, ignored);  // succeeds only if empty
 }
 

@@ -18,14 +18,15 @@ namespace intarsia {
 // one wins.
 class OutputFolder {
  public:
-  // `our_names`: of files, all that any run may ever write. Cleans up after killed runs.
-  // Errors: the target is a file, the current folder or one above it; its parent is missing or cannot be written.
+  // `our_names`: of files, all that any run may ever write; NAME or FOLDER/NAME. A folder of results is exchanged like
+  // a file as long as it holds nothing else. Cleans up after killed runs. Errors: the target is a file, the current
+  // folder or one above it; its parent is missing or cannot be written.
   OutputFolder(const std::filesystem::path& target, std::vector<std::string> our_names);
   ~OutputFolder();  // without commit(): the new folder is removed, the target is as it was
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
-  // Where to write the file of that name until commit(). Requires: one of our_names.
+  // Where to write the file of that name until commit(); its folder is there. Requires: one of our_names.
   std::filesystem::path file(const std::string& name) const;
   // The target, absolute.
   const std::filesystem::path& target() const { return target_; }

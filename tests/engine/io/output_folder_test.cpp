@@ -240,6 +240,32 @@ TEST_CASE("if a user's folder cannot be moved, all is as it was") {
   }));
 }
 
+TEST_CASE("a folder of results is exchanged like a file while nothing else is in it") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  std::vector<std::string> names = kNames;
+  names.insert(names.end(), {"quads/mesh.obj", "quads/mesh.patch"});
+  const auto write = [&](std::initializer_list<const char*> files) {
+    OutputFolder results(out, names);
+    for (const char* name : files) put_file(results.file(name), "new");
+    results.commit();
+  };
+  write({"report.json", "quads/mesh.obj", "quads/mesh.patch"});
+  CHECK(get_file(out / "quads" / "mesh.patch") == "new");
+  write({"report.json", "quads/mesh.obj"});
+  CHECK_FALSE(fs::exists(out / "quads" / "mesh.patch"));
+  write({"report.json"});
+  CHECK_FALSE(fs::exists(out / "quads"));
+  CHECK(folder.entry_count() == 1);
+  write({"quads/mesh.obj"});
+  put_file(out / "quads" / "mine.txt", "mine");
+  CHECK(error_of([&] { write({"quads/mesh.obj"}); })->code() == ErrorCode::write_failed);
+  write({"report.json"});  // a user's folder now, and kept whole
+  CHECK(get_file(out / "quads" / "mine.txt") == "mine");
+  CHECK(get_file(out / "quads" / "mesh.obj") == "new");
+  CHECK(folder.entry_count() == 1);
+}
+
 TEST_CASE("names outside the list are a mistake of the program") {
   const TemporaryFolder folder;
   OutputFolder out(folder / "out", kNames);
