@@ -1,5 +1,7 @@
 #include "graph/artefacts.h"
 
+#include <numbers>
+
 #include "engine/parallel/hash_array.h"
 #include "graph/fields_visitor.h"
 
@@ -80,6 +82,14 @@ std::vector<Warning> warnings_of(const Surface& a) {
     for (const Index id : fault.first) text += " " + std::to_string(id);
     warnings.push_back({std::string("cleaned-") + kernels::name_of(action), text + ")", fault.count, {}});
   }
+  if (a.given.size() > 0)
+    warnings.push_back(
+        {"noise-filtered",
+         "the mesh is noisy (neighbouring triangles differ by " +
+             std::to_string(static_cast<int>(a.rough * 180 / std::numbers::pi + 0.5)) +
+             " degrees): features were looked for on a filtered copy; results keep the input's positions",
+         1,
+         {}});
   return warnings;
 }
 std::vector<Warning> warnings_of(const Network& a) { return as_warnings("network", a.warnings); }

@@ -53,6 +53,9 @@ struct Surface {
   Vec3Array face_normal;  // unit, 0 for faces without area
   Real area = 0;
   Real mean_edge = 0;             // h
+  Real detail = 0;                // what is small: h, but not less than 0.004 however fine the sampling
+  Real rough = 0;                 // angle between neighbouring triangles, see kernels/denoise/roughness.h
+  Vec3Array given;                // input positions of the vertices, if the mesh's are filtered; else empty
   bool single_precision = false;  // every input coordinate is a float: flat parts carry its rounding
 };
 

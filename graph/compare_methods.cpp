@@ -76,7 +76,7 @@ bool is_ours(Method m) { return m == Method::compact || m == Method::quality || 
 
 Prepared prepare(const Work& work, const Soup& soup, const LayoutOptions& options) {
   Prepared p;
-  p.surface = mesh_to_surface(work, soup, options.clean);
+  p.surface = mesh_to_surface(work, soup, options);
   p.sharp = surface_to_sharp(work, p.surface, options);
   const Scale scale = surface_to_scale(work, p.surface, p.sharp, options);
   p.curvature = scale_to_curvature(work, p.surface, scale, p.sharp, options);

@@ -30,7 +30,7 @@ class Choice {
     field_ = direction_field(work, surface.mesh, curvature.fields, options.direction);
     normal_ = curvature.fields.normal;
     embedding_ = embed_curves(work, surface.mesh, net);
-    patches_ = make_patch_surface(work, embedding_.refined, surface.face_normal, surface.mean_edge,
+    patches_ = make_patch_surface(work, embedding_.refined, surface.face_normal, surface.detail,
                                   options.subdivide.hole_length);
     for (std::size_t i = 0; i < embedding_.edge.size(); ++i) {  // ascending, one entry for each curve on an edge
       const Real level = level_of(embedding_.edge_curve[i]);
@@ -49,7 +49,7 @@ class Choice {
 
   Result extend(Real threshold) const {
     const RefinedMesh& refined = embedding_.refined;
-    const Terrain terrain(refined, normal_, field_, surface_.mesh.vertex_count(), surface_.mean_edge);
+    const Terrain terrain(refined, normal_, field_, surface_.mesh.vertex_count(), surface_.detail);
     Result r;
     r.active.resize(refined.mesh.edge_count());
     for_each(work_, Cost::light, r.active.size(),

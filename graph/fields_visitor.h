@@ -72,7 +72,7 @@ void walk(const LayoutGraph& a, V& v) {
 template <class V>
 void walk(const Surface& a, V& v) {
   walk(a.mesh, v), v.array(a.order.vertex), v.array(a.order.face), walk(a.face_normal, v);
-  v.scalar(a.area), v.scalar(a.mean_edge);
+  v.scalar(a.area), v.scalar(a.mean_edge), v.scalar(a.rough), walk(a.given, v);
   for (const auto* m : {&a.mended.copy, &a.mended.twin, &a.mended.twin_of, &a.mended.welded, &a.mended.welded_into})
     v.array(*m);
 }

@@ -33,7 +33,7 @@ void check_options(const LayoutOptions& options) {
 FeaturePorts add_feature_stages(Flow& flow, const Port<Soup>& soup, const LayoutOptions& options) {
   const std::uint64_t hash = options_hash(options);
   FeaturePorts p;
-  const auto surface = [clean = options.clean](const Work& w, const Soup& s) { return mesh_to_surface(w, s, clean); };
+  const auto surface = [options](const Work& w, const Soup& s) { return mesh_to_surface(w, s, options); };
   p.surface = add_stage(flow, Stage<Surface, Soup>{"surface", 2, hash, surface, {}, 1}, soup);
   const auto sharp = [options](const Work& w, const Surface& s) { return surface_to_sharp(w, s, options); };
   p.sharp = add_stage(flow, Stage<Sharp, Surface>{"surface", 1, hash, sharp, "sharp", 0.1}, p.surface);

@@ -5,9 +5,15 @@
 #include "engine/parallel/reduce.h"
 #include "engine/parallel/single_precision.h"
 #include "graph/stages.h"
+#include "kernels/denoise/denoise.h"
+#include "kernels/denoise/roughness.h"
 
 namespace intarsia::graph {
 namespace {
+
+// Diagonals. Lengths of the method that are given in mean edges (how far ends look back, which strips are thin) end
+// here on fine meshes, so that a layout does not depend on how finely the surface was sampled.
+constexpr Real kFinestDetail = 0.004;
 
 // What is still wanted of the cleaning, with the surface's order going back to the input itself.
 void name_by_input(const Work& work, const Soup& input, const kernels::Cleaning& cleaning, Surface& s) {
@@ -26,10 +32,19 @@ void name_by_input(const Work& work, const Soup& input, const kernels::Cleaning&
     if (cleaning.becomes[v] != v) mended.welded.push_back(v), mended.welded_into.push_back(cleaning.becomes[v]);
 }
 
+// True if the mesh was noisy and is filtered now.
+bool filter_noise(const Work& work, const kernels::DenoiseOptions& options, Surface& s) {
+  std::optional<Vec3Array> position = kernels::denoise(work, s.mesh, s.rough, s.mean_edge, options);
+  if (!position) return false;
+  std::swap(s.mesh.x, position->x), std::swap(s.mesh.y, position->y), std::swap(s.mesh.z, position->z);
+  s.given = std::move(*position);
+  return true;
+}
+
 }  // namespace
 
-Surface mesh_to_surface(const Work& work, const Soup& input, const kernels::CleanOptions& clean) {
-  const kernels::Cleaning cleaning = kernels::clean_soup(work, input, clean);
+Surface mesh_to_surface(const Work& work, const Soup& input, const LayoutOptions& options) {
+  const kernels::Cleaning cleaning = kernels::clean_soup(work, input, options.clean);
   const Soup& soup = cleaning.changed ? cleaning.soup : input;
   Surface s;
   s.box = kernels::normalise_box(work, soup);
@@ -38,10 +53,13 @@ Surface mesh_to_surface(const Work& work, const Soup& input, const kernels::Clea
       is_single_precision(work, soup, s.order.vertex.size(), [&](std::size_t v) { return s.order.vertex[v]; });
   if (cleaning.changed) name_by_input(work, input, cleaning, s);
   connect_mesh(work, s.mesh);
+  s.mean_edge = kernels::mean_edge_length(work, s.mesh);
+  s.detail = std::max(s.mean_edge, kFinestDetail);
   kernels::FaceGeometry faces = kernels::face_geometry(work, s.mesh);
+  s.rough = kernels::roughness(work, s.mesh, faces.normal);
+  if (options.filter_noise && filter_noise(work, options.denoise, s)) faces = kernels::face_geometry(work, s.mesh);
   s.area = sum(work, Cost::light, faces.area.size(), 0.0, [&](std::size_t f) { return faces.area[f]; });
   s.face_normal = std::move(faces.normal);
-  s.mean_edge = kernels::mean_edge_length(work, s.mesh);
   return s;
 }
 

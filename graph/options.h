@@ -8,6 +8,7 @@
 #include "kernels/cells/swap_cells.h"
 #include "kernels/curvature/compute_curvature.h"
 #include "kernels/curves/connect_features.h"
+#include "kernels/denoise/denoise.h"
 #include "kernels/layout/check_layout.h"
 #include "kernels/layout/cross_edges.h"
 #include "kernels/layout/smooth_boundaries.h"
@@ -61,6 +62,8 @@ struct LayoutOptions {
   std::uint64_t seed = 0;  // paper mode: random seeds of the subdivision
   Index patches = 0;       // wanted number of patches; 0 = automatic
   kernels::CleanOptions clean;
+  bool filter_noise = true;
+  kernels::DenoiseOptions denoise;
   bool barrier = true;  // fits do not cross sharp edges
   kernels::SharpOptions sharp;
   kernels::ScaleOptions scale;

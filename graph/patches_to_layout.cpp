@@ -59,7 +59,7 @@ Embedded embed_smoothed(const Work& work, const Surface& surface, const Smoothin
 // Reconstruction error of every patch.
 std::vector<Real> patch_errors(const Work& work, const Surface& surface, const RefinedMesh& refined,
                                const PatchLabels& labels, const LayoutGraph& graph, Real hole_length) {
-  const PatchSurface measured = make_patch_surface(work, refined, surface.face_normal, surface.mean_edge, hole_length);
+  const PatchSurface measured = make_patch_surface(work, refined, surface.face_normal, surface.detail, hole_length);
   const PatchTable table = measure_patches(work, measured, labels);
   CellOptions options;
   options.smoothing = 0;
@@ -176,7 +176,7 @@ Layout smoothing_to_layout(const Work& work, const Surface& surface, const Smoot
     for (std::size_t a = 0; a < keep.size(); ++a) keep[a] |= more[a];
   }
   const PatchSurface measured =
-      make_patch_surface(work, layout.refined, surface.face_normal, surface.mean_edge, options.check.hole_length);
+      make_patch_surface(work, layout.refined, surface.face_normal, surface.detail, options.check.hole_length);
   layout.table = measure_patches(work, measured, layout.labels);
   layout.checks = check_layout(work, surface.mesh, layout.refined, layout.labels.patch_of_face, layout.labels.count,
                                layout.graph, options.check);

@@ -12,7 +12,7 @@
 namespace intarsia::graph {
 
 // Cleans it first. Errors: rejected, in the user's numbering.
-Surface mesh_to_surface(const Work& work, const Soup& soup, const kernels::CleanOptions& clean = {});
+Surface mesh_to_surface(const Work& work, const Soup& soup, const LayoutOptions& options = {});
 Sharp surface_to_sharp(const Work& work, const Surface& surface, const LayoutOptions& options);
 Scale surface_to_scale(const Work& work, const Surface& surface, const Sharp& sharp, const LayoutOptions& options);
 Curvature scale_to_curvature(const Work& work, const Surface& surface, const Scale& scale, const Sharp& sharp,

@@ -12,6 +12,12 @@ void visit_options(Options& o, V&& v) {
   v("clean.weld", o.clean.weld_distance, "border vertices nearer than this are joined, diagonals; 0 = none", 0.0, 0.01);
   v("clean.specks", o.clean.speck_area, "pieces below this share of the area are left out; 0 = none", 0.0, 0.5);
   v("clean.outward", o.clean.turn_outward, "turn closed pieces that face inwards", 0, 1);
+  v("noise.filter", o.filter_noise, "look for features on a filtered copy of a noisy mesh", 0, 1);
+  v("noise.least", o.denoise.least, "roughness of a noisy mesh: angle between neighbouring triangles, radians", 0.0,
+    3.2);
+  v("noise.sigma", o.denoise.filter.sigma, "differences of normals that the filter keeps", 0.01, 2.0);
+  v("noise.iterations", o.denoise.filter.iterations, "steps of the normal filter", 0, 200);
+  v("noise.rounds", o.denoise.rounds, "rounds of filtering normals and fitting positions", 1, 20);
   v("sharp.strong", o.sharp.strong, "dihedral turn that makes a mesh edge sharp, radians", 0.1, 3.1);
   v("sharp.weak", o.sharp.weak, "turn of an edge that continues a sharp chain, radians", 0.05, 3.1);
   v("sharp.min-length", o.sharp.min_length, "shortest connected set of sharp edges, diagonals", 0.0, 1.0);

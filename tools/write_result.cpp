@@ -23,7 +23,7 @@ Handover handover_of(const Work& work, const Soup& soup, const graph::Surface& s
   parts.centre = surface.box.centre, parts.diagonal = surface.box.diagonal;
   parts.refined = &layout.refined, parts.labels = &layout.labels, parts.graph = &layout.graph;
   parts.interior = &layout.interior, parts.mesh = surface.mesh, parts.face_patch = layout.face_patch;
-  parts.patch_colour = colour;
+  parts.patch_colour = colour, parts.given = surface.given;
   handover.name = name;
   complete(work, handover);
   return handover;

@@ -30,7 +30,8 @@ struct LayoutView {
   const LayoutGraph* graph = nullptr;      // on the refined mesh
   const CurveNetwork* interior = nullptr;  // feature curves inside patches, on the canonical mesh
   MeshView mesh;                           // the canonical mesh
-  std::span<const Index> face_patch;       // canonical face -> patch with most of it
+  Vec3View given;  // input positions of its vertices, normalised, where the mesh has others; else empty
+  std::span<const Index> face_patch;  // canonical face -> patch with most of it
   std::span<const std::array<std::uint8_t, 3>> patch_colour;
 };
 
@@ -50,6 +51,14 @@ void write_network_ply(const Work& work, const std::filesystem::path& path, cons
 // Nodes, arcs, loops per patch, interior curves. Vertex ids are those of layout.ply.
 void write_network_json(const Work& work, const std::filesystem::path& path, const LayoutView& layout);
 
+// Where a point of the canonical mesh is on the input; `here`: where it is on the mesh.
+inline Vec3 given_position(const LayoutView& l, const SurfacePoint& p, const Vec3& here) {
+  if (l.given.size() == 0) return here;
+  MeshView input = l.mesh;
+  input.x = l.given.x, input.y = l.given.y, input.z = l.given.z;
+  return position(input, p);
+}
+
 // Number of a refined vertex in layout.ply.
 inline Index layout_vertex(const LayoutView& l, Index v) {
   const Index originals = static_cast<Index>(l.vertex_order.size());
@@ -66,7 +75,7 @@ inline Vec3 layout_point(const LayoutView& l, Index v) {
     const Index s = l.vertex_order[v];
     return {l.soup->x[s], l.soup->y[s], l.soup->z[s]};
   }
-  return l.centre + l.diagonal * l.refined->mesh.view().point(v);
+  return l.centre + l.diagonal * given_position(l, l.refined->origin[v], l.refined->mesh.view().point(v));
 }
 
 }  // namespace intarsia

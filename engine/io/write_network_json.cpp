@@ -66,8 +66,11 @@ json interior_of(const LayoutView& layout) {
   json curves = json::array();
   for (Index c = 0; c < layout.interior->curve_count(); ++c) {
     json points = json::array();
-    for (Index p : layout.interior->curve.row(c))
-      points.push_back(point_of(layout.centre + layout.diagonal * position(layout.mesh, layout.interior->point[p])));
+    for (Index p : layout.interior->curve.row(c)) {
+      const SurfacePoint& at = layout.interior->point[p];
+      const Vec3 here = given_position(layout, at, position(layout.mesh, at));
+      points.push_back(point_of(layout.centre + layout.diagonal * here));
+    }
     curves.push_back({{"kind", static_cast<int>(layout.interior->kind[c])}, {"points", std::move(points)}});
   }
   return curves;

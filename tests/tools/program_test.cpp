@@ -122,7 +122,7 @@ TEST_CASE("every kind of failure has its exit status and leaves an earlier resul
   CHECK(program({"run", dir / "missing.ply", "-o", dir / "out"}, dir / "log") == kExitUnreadable);
   CHECK(text_of(dir / "log").find("missing.ply") != std::string::npos);
   std::ofstream(dir / "fan.off") << "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 -1 0\n3 0 1 2\n3 0 1 3\n3 0 1 4\n";
-  CHECK(program({"run", dir / "fan.off", "-o", dir / "out"}, dir / "log") == kExitRejected);
+  CHECK(program({"run", dir / "fan.off", "-o", dir / "out", "--strict"}, dir / "log") == kExitRejected);
   CHECK(program({"run", dir / "cube.ply", "-o", dir / "cube.ply"}) == kExitWrite);
   CHECK(program({"run", dir / "cube.ply", "-o", dir / "no/such/folder"}) == kExitWrite);
 
