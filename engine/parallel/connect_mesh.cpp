@@ -1,7 +1,7 @@
 #include "engine/parallel/connect_mesh.h"
 
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <string>
 
 #include "engine/parallel/build_csr.h"
@@ -10,72 +10,74 @@
 namespace intarsia {
 namespace {
 
-// The directed edge opposite corner c runs from `tail` to `head`.
-struct HalfEdge {
-  Index tail, head;
-  Index low() const { return std::min(tail, head); }
-  Index high() const { return std::max(tail, head); }
-};
+// The edges of one vertex v to larger ones, as half-edges: key = larger vertex << 32 | opposite corner, ascending.
+class Rays {
+ public:
+  explicit Rays(const Mesh& mesh) : mesh_(mesh) {}
 
-HalfEdge half_edge(const std::vector<Index>& corner, std::size_t c) {
-  const std::size_t f = c / 3 * 3;
-  return {corner[f + (c + 1 - f) % 3], corner[f + (c + 2 - f) % 3]};
-}
-
-// Half-edges grouped by their smaller vertex, each row sorted by (larger vertex, corner).
-struct Buckets {
-  std::vector<Index> offset;
-  std::vector<std::uint64_t> key;  // larger vertex << 32 | corner
-};
-
-Buckets bucket_half_edges(const Work& work, const Mesh& mesh) {
-  Buckets b;
-  b.offset.assign(std::size_t{mesh.vertex_count()} + 1, 0);
-  const std::size_t corners = mesh.corner.size();
-  for_each(work, Cost::light, corners, [&](std::size_t c) {
-    std::atomic_ref<Index>(b.offset[half_edge(mesh.corner, c).low()]).fetch_add(1, std::memory_order_relaxed);
-  });
-  b.key.resize(exclusive_scan<Index>(work, b.offset));
-  std::vector<Index> cursor(b.offset);
-  for_each(work, Cost::light, corners, [&](std::size_t c) {
-    const HalfEdge h = half_edge(mesh.corner, c);
-    const Index at = std::atomic_ref<Index>(cursor[h.low()]).fetch_add(1, std::memory_order_relaxed);
-    b.key[at] = (std::uint64_t{h.high()} << 32) | c;
-  });
-  for_each(work, Cost::light, mesh.vertex_count(),
-           [&](std::size_t v) { sort_short(b.key.begin() + b.offset[v], b.key.begin() + b.offset[v + 1]); });
-  return b;
-}
-
-void write_edges(const Work& work, const Buckets& b, Mesh& mesh) {
-  const Index vertices = mesh.vertex_count();
-  const auto starts_edge = [&](Index v, Index i) {
-    return i == b.offset[v] || (b.key[i] >> 32) != (b.key[i - 1] >> 32);
-  };
-  std::vector<Index> first(vertices);
-  for_each(work, Cost::light, vertices, [&](std::size_t v) {
+  void read(Index v) {
+    const auto faces = mesh_.vertex_faces.row(v);
+    if (key_.size() < 2 * faces.size() + 1) key_.resize(4 * faces.size());
+    std::uint64_t* key = key_.data();
+    size_ = 0;
+    const auto take = [&](Index other, Index corner) {  // which vertex is larger cannot be predicted: no branch
+      key[size_] = (std::uint64_t{other} << 32) | corner;
+      size_ += other > v;
+    };
+    for (const Index f : faces) {
+      const Index c = 3 * f, *k = &mesh_.corner[c];
+      const Index i = k[1] == v ? 1 : k[2] == v ? 2 : 0, next = i == 2 ? 0 : i + 1, last = i == 0 ? 2 : i - 1;
+      take(k[next], c + last), take(k[last], c + next);
+    }
+    sort_few(key, size_);
+  }
+  std::size_t size() const { return size_; }
+  Index other(std::size_t i) const { return static_cast<Index>(key_[i] >> 32); }
+  Index corner(std::size_t i) const { return static_cast<Index>(key_[i]); }
+  bool starts_edge(std::size_t i) const { return i == 0 || other(i) != other(i - 1); }
+  Index edges() const {
     Index n = 0;
-    for (Index i = b.offset[v]; i < b.offset[v + 1]; ++i) n += starts_edge(static_cast<Index>(v), i) ? 1 : 0;
-    first[v] = n;
+    for (std::size_t i = 0; i < size_; ++i) n += starts_edge(i);
+    return n;
+  }
+
+ private:
+  const Mesh& mesh_;
+  std::vector<std::uint64_t> key_ = std::vector<std::uint64_t>(64);
+  std::size_t size_ = 0;
+};
+
+// Fills the edges and returns the first edge of each vertex. Requires: vertex_faces.
+std::vector<Index> write_edges(const Work& work, Mesh& mesh) {
+  const Index vertices = mesh.vertex_count();
+  std::vector<Index> first(std::size_t{vertices} + 1, 0);
+  for_each_block(work, Cost::light, vertices, [&](std::size_t begin, std::size_t end, std::size_t) {
+    Rays rays(mesh);
+    for (std::size_t v = begin; v < end; ++v) {
+      rays.read(static_cast<Index>(v));
+      first[v] = rays.edges();
+    }
   });
   const Index edges = exclusive_scan<Index>(work, first);
   mesh.edge_v0.resize(edges), mesh.edge_v1.resize(edges);
-  mesh.edge_f0.resize(edges), mesh.edge_f1.assign(edges, kNone);
+  mesh.edge_f0.resize(edges), mesh.edge_f1.resize(edges);
   mesh.face_edge.resize(mesh.corner.size());
   const Index bad = reduce(
       work, Cost::light, vertices, kNone,
       [&](std::size_t begin, std::size_t end) {
+        Rays rays(mesh);
         Index worst = kNone;
         for (std::size_t v = begin; v < end; ++v) {
+          rays.read(static_cast<Index>(v));
           Index e = first[v] - 1;
           bool forward = false;
-          for (Index i = b.offset[v]; i < b.offset[v + 1]; ++i) {
-            const Index c = static_cast<Index>(b.key[i]), f = c / 3;
-            const bool along = half_edge(mesh.corner, c).tail == v;
-            if (starts_edge(static_cast<Index>(v), i)) {
+          for (std::size_t i = 0; i < rays.size(); ++i) {
+            const Index c = rays.corner(i), f = c / 3;
+            const bool along = mesh.corner[c + 1 < 3 * f + 3 ? c + 1 : 3 * f] == v;
+            if (rays.starts_edge(i)) {
               ++e;
-              mesh.edge_v0[e] = static_cast<Index>(v), mesh.edge_v1[e] = static_cast<Index>(b.key[i] >> 32);
-              mesh.edge_f0[e] = f;
+              mesh.edge_v0[e] = static_cast<Index>(v), mesh.edge_v1[e] = rays.other(i);
+              mesh.edge_f0[e] = f, mesh.edge_f1[e] = kNone;
               forward = along;
             } else if (mesh.edge_f1[e] != kNone || along == forward) {
               worst = std::min(worst, mesh.edge_f0[e]);
@@ -92,23 +94,35 @@ void write_edges(const Work& work, const Buckets& b, Mesh& mesh) {
     throw Error(ErrorCode::rejected,
                 "face " + std::to_string(bad) + " has an edge with more than two faces or a neighbour turned over",
                 bad);
+  return first;
+}
+
+std::vector<Index> connect(const Work& work, Mesh& mesh) {
+  mesh.vertex_faces = build_csr(
+      work, mesh.vertex_count(), mesh.corner.size(), [&](std::size_t c) { return mesh.corner[c]; },
+      [](std::size_t c) { return static_cast<Index>(c / 3); });
+  return write_edges(work, mesh);
 }
 
 }  // namespace
 
-void connect_faces(const Work& work, Mesh& mesh) {
-  write_edges(work, bucket_half_edges(work, mesh), mesh);
-  mesh.vertex_faces = build_csr(
-      work, mesh.vertex_count(), mesh.corner.size(), [&](std::size_t c) { return mesh.corner[c]; },
-      [](std::size_t c) { return static_cast<Index>(c / 3); });
-}
+void connect_faces(const Work& work, Mesh& mesh) { connect(work, mesh); }
 
 void connect_mesh(const Work& work, Mesh& mesh) {
-  connect_faces(work, mesh);
-  mesh.vertex_vertices = build_csr(
-      work, mesh.vertex_count(), std::size_t{mesh.edge_count()} * 2,
-      [&](std::size_t i) { return i % 2 ? mesh.edge_v1[i / 2] : mesh.edge_v0[i / 2]; },
-      [&](std::size_t i) { return i % 2 ? mesh.edge_v0[i / 2] : mesh.edge_v1[i / 2]; });
+  const std::vector<Index> first = connect(work, mesh);
+  // Edges are sorted by both ends: larger neighbours stand there already, and smaller ones are met in order.
+  const Csr smaller = build_csr(
+      work, mesh.vertex_count(), mesh.edge_count(), [&](std::size_t e) { return mesh.edge_v1[e]; },
+      [&](std::size_t e) { return mesh.edge_v0[e]; });
+  Csr& out = mesh.vertex_vertices;
+  out.offset.resize(first.size());
+  out.item.resize(std::size_t{mesh.edge_count()} * 2);
+  for_each(work, Cost::light, first.size(), [&](std::size_t v) { out.offset[v] = smaller.offset[v] + first[v]; });
+  for_each(work, Cost::light, mesh.vertex_count(), [&](std::size_t v) {
+    const auto row = smaller.row(static_cast<Index>(v));
+    const auto at = std::copy(row.begin(), row.end(), out.item.begin() + out.offset[v]);
+    std::copy(mesh.edge_v1.begin() + first[v], mesh.edge_v1.begin() + first[v + 1], at);
+  });
 }
 
 }  // namespace intarsia
