@@ -110,6 +110,8 @@ std::uint64_t hash_of(const Surface& a) { return hash_fields(a); }
 std::uint64_t hash_of(const Scale& a) { return hash_fields(a); }
 std::uint64_t hash_of(const Sharp& a) { return hash_fields(a); }
 std::uint64_t hash_of(const Curvature& a) { return hash_fields(a); }
+std::uint64_t hash_of(const Directions& a) { return hash_fields(a); }
+std::uint64_t hash_of(const Lines& a) { return hash_fields(a); }
 std::uint64_t hash_of(const Ridges& a) { return hash_fields(a); }
 std::uint64_t hash_of(const Curves& a) { return hash_fields(a); }
 std::uint64_t hash_of(const Network& a) { return hash_fields(a); }
@@ -121,6 +123,8 @@ std::size_t bytes_of(const Surface& a) { return size_fields(a); }
 std::size_t bytes_of(const Scale& a) { return size_fields(a); }
 std::size_t bytes_of(const Sharp& a) { return size_fields(a); }
 std::size_t bytes_of(const Curvature& a) { return size_fields(a); }
+std::size_t bytes_of(const Directions& a) { return size_fields(a); }
+std::size_t bytes_of(const Lines& a) { return size_fields(a); }
 std::size_t bytes_of(const Ridges& a) { return size_fields(a); }
 std::size_t bytes_of(const Curves& a) { return size_fields(a); }
 std::size_t bytes_of(const Network& a) { return size_fields(a); }
@@ -132,6 +136,8 @@ std::size_t items_of(const Surface& a) { return a.mesh.face_count(); }
 std::size_t items_of(const Scale& a) { return a.fields.scale.size(); }
 std::size_t items_of(const Sharp& a) { return a.edges.curves.curve_count(); }
 std::size_t items_of(const Curvature& a) { return a.fields.vertex_count(); }
+std::size_t items_of(const Directions& a) { return a.normal.size(); }
+std::size_t items_of(const Lines& a) { return a.lines.vertex_count(); }
 std::size_t items_of(const Ridges& a) { return a.curves.curve_count(); }
 std::size_t items_of(const Curves& a) { return a.curves.curve_count(); }
 std::size_t items_of(const Network& a) { return a.patches; }

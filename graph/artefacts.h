@@ -17,7 +17,9 @@
 #include "engine/run/record.h"
 #include "kernels/layout/check_layout.h"
 #include "kernels/layout/match_labels.h"
+#include "kernels/layout/principal_lines.h"
 #include "kernels/layout/smooth_boundaries.h"
+#include "kernels/network/direction_field.h"
 #include "kernels/ridges/sharp_edges.h"
 #include "kernels/scale/compute_scale.h"
 #include "kernels/surface/canonical_order.h"
@@ -72,6 +74,18 @@ struct Sharp {
 // scale -> curvature
 struct Curvature {
   CurvatureFields fields;
+};
+
+// curvature -> directions: what the network is extended by. With the lines all that is wanted of the curvature once
+// there are curves; the rest is freed then.
+struct Directions {
+  kernels::DirectionField field;
+  Vec3Array normal;  // unit, refined
+};
+
+// curvature -> lines: what borders are smoothed by.
+struct Lines {
+  kernels::PrincipalLines lines;
 };
 
 // curvature -> ridges: one channel's raw lines. Twice in a run: ridges and valleys.
@@ -139,6 +153,8 @@ std::uint64_t hash_of(const Surface& a);
 std::uint64_t hash_of(const Scale& a);
 std::uint64_t hash_of(const Sharp& a);
 std::uint64_t hash_of(const Curvature& a);
+std::uint64_t hash_of(const Directions& a);
+std::uint64_t hash_of(const Lines& a);
 std::uint64_t hash_of(const Ridges& a);
 std::uint64_t hash_of(const Curves& a);
 std::uint64_t hash_of(const Network& a);
@@ -150,6 +166,8 @@ std::size_t bytes_of(const Surface& a);
 std::size_t bytes_of(const Scale& a);
 std::size_t bytes_of(const Sharp& a);
 std::size_t bytes_of(const Curvature& a);
+std::size_t bytes_of(const Directions& a);
+std::size_t bytes_of(const Lines& a);
 std::size_t bytes_of(const Ridges& a);
 std::size_t bytes_of(const Curves& a);
 std::size_t bytes_of(const Network& a);
@@ -157,15 +175,17 @@ std::size_t bytes_of(const Patches& a);
 std::size_t bytes_of(const Smoothing& a);
 std::size_t bytes_of(const Layout& a);
 
-std::size_t items_of(const Surface& a);    // faces
-std::size_t items_of(const Scale& a);      // vertices
-std::size_t items_of(const Sharp& a);      // curves
-std::size_t items_of(const Curvature& a);  // vertices
-std::size_t items_of(const Ridges& a);     // curves
-std::size_t items_of(const Curves& a);     // curves
-std::size_t items_of(const Network& a);    // patches
-std::size_t items_of(const Patches& a);    // patches
-std::size_t items_of(const Smoothing& a);  // arcs
-std::size_t items_of(const Layout& a);     // patches
+std::size_t items_of(const Surface& a);     // faces
+std::size_t items_of(const Scale& a);       // vertices
+std::size_t items_of(const Sharp& a);       // curves
+std::size_t items_of(const Curvature& a);   // vertices
+std::size_t items_of(const Directions& a);  // vertices
+std::size_t items_of(const Lines& a);       // vertices
+std::size_t items_of(const Ridges& a);      // curves
+std::size_t items_of(const Curves& a);      // curves
+std::size_t items_of(const Network& a);     // patches
+std::size_t items_of(const Patches& a);     // patches
+std::size_t items_of(const Smoothing& a);   // arcs
+std::size_t items_of(const Layout& a);      // patches
 
 }  // namespace intarsia::graph

@@ -83,12 +83,15 @@ BaselinePorts add_baseline_stages(Flow& flow, const Port<Soup>& soup, const Layo
   };
   p.patches = add_stage(flow, Stage<Patches, Soup, Surface, Network>{"patches", 1, hash.value(), patches, {}, 4}, soup,
                         p.features.surface, p.network);
-  const auto smoothing = [options](const Work& w, const Surface& s, const Curvature& k, const Network& n,
-                                   const Patches& q) { return patches_to_smoothing(w, s, k, n, q, options); };
-  using SmoothingStage = Stage<Smoothing, Surface, Curvature, Network, Patches>;
+  const Port<Lines> lines =
+      add_stage(flow, Stage<Lines, Curvature>{"layout", 1, hash.value(), curvature_to_lines, "lines", 0.01},
+                p.features.curvature);
+  const auto smoothing = [options](const Work& w, const Surface& s, const Lines& l, const Network& n,
+                                   const Patches& q) { return patches_to_smoothing(w, s, l, n, q, options); };
+  using SmoothingStage = Stage<Smoothing, Surface, Lines, Network, Patches>;
   const Port<Smoothing> smoothed =
-      add_stage(flow, SmoothingStage{"layout", 1, hash.value(), smoothing, "smoothing", 0.3}, p.features.surface,
-                p.features.curvature, p.network, p.patches);
+      add_stage(flow, SmoothingStage{"layout", 1, hash.value(), smoothing, "smoothing", 0.3}, p.features.surface, lines,
+                p.network, p.patches);
   const auto layout = [options](const Work& w, const Surface& s, const Smoothing& a) {
     return smoothing_to_layout(w, s, a, options);
   };

@@ -18,17 +18,15 @@ constexpr Real kAlways = 1e30;
 // The curves a threshold may choose from, embedded once; what a threshold makes of them is then cheap to try.
 class Choice {
  public:
-  Choice(const Work& work, const Surface& surface, const Curvature& curvature, FeatureCurves candidates,
+  Choice(const Work& work, const Surface& surface, const Directions& directions, FeatureCurves candidates,
          const LayoutOptions& options)
-      : work_(work), surface_(surface), options_(options), candidates_(std::move(candidates)) {
+      : work_(work), surface_(surface), directions_(directions), options_(options), candidates_(std::move(candidates)) {
     CurveNetwork net = candidates_.net;
     std::vector<std::uint8_t> on_sharp(surface.mesh.vertex_count(), 0);
     for (Index c = 0; c < net.curve_count(); ++c)
       if (net.kind[c] == CurveKind::sharp)
         for (Index p : net.curve.row(c)) on_sharp[net.point[p].element] = 1;
     snap_curves(work, surface.mesh, on_sharp, options.snap, net);
-    field_ = direction_field(work, surface.mesh, curvature.fields, options.direction);
-    normal_ = curvature.fields.normal;
     embedding_ = embed_curves(work, surface.mesh, net);
     patches_ = make_patch_surface(work, embedding_.refined, surface.face_normal, surface.detail,
                                   options.subdivide.hole_length);
@@ -49,7 +47,8 @@ class Choice {
 
   Result extend(Real threshold) const {
     const RefinedMesh& refined = embedding_.refined;
-    const Terrain terrain(refined, normal_, field_, surface_.mesh.vertex_count(), surface_.detail);
+    const Terrain terrain(refined, directions_.normal, directions_.field, surface_.mesh.vertex_count(),
+                          surface_.detail);
     Result r;
     r.active.resize(refined.mesh.edge_count());
     for_each(work_, Cost::light, r.active.size(),
@@ -114,11 +113,10 @@ class Choice {
 
   const Work& work_;
   const Surface& surface_;
+  const Directions& directions_;
   const LayoutOptions& options_;
   FeatureCurves candidates_;
   Embedding embedding_;
-  DirectionField field_;
-  Vec3View normal_;
   PatchSurface patches_;
   std::vector<Index> edge_;  // refined edges that carry curves, ascending
   std::vector<Real> level_;  // and the saliency of the component, the largest of them
@@ -126,15 +124,20 @@ class Choice {
 
 }  // namespace
 
-Network curves_to_network(const Work& work, const Surface& surface, const Curvature& curvature, const Curves& curves,
+Directions curvature_to_directions(const Work& work, const Surface& surface, const Curvature& curvature,
+                                   const LayoutOptions& options) {
+  return {direction_field(work, surface.mesh, curvature.fields, options.direction), curvature.fields.normal};
+}
+
+Network curves_to_network(const Work& work, const Surface& surface, const Directions& directions, const Curves& curves,
                           const LayoutOptions& options) {
   const ChoiceOptions& c = options.choice;
   if (options.mode == Mode::paper) {
-    Choice all(work, surface, curvature, curves.curves, options);
+    Choice all(work, surface, directions, curves.curves, options);
     return all.finish(-0.5);
   }
   const Real lowest = options.patches > 0 ? c.weakest : c.min_saliency;
-  Choice choice(work, surface, curvature, filter_by_saliency(work, curves.curves, lowest), options);
+  Choice choice(work, surface, directions, filter_by_saliency(work, curves.curves, lowest), options);
   const Real budget = options.form == SubdivideForm::quality ? c.quality_budget : c.budget;
   const Index most = options.patches > 0 ? std::max<Index>(1, static_cast<Index>(std::floor(budget * options.patches)))
                                          : c.most_patches;

@@ -93,6 +93,17 @@ void walk(const Curvature& a, V& v) {
   walk(a.fields, v);
 }
 template <class V>
+void walk(const Directions& a, V& v) {
+  walk(a.field.direction, v), walk(a.normal, v);
+  v.array(a.field.confidence), v.array(a.field.ridge), v.array(a.field.valley);
+}
+template <class V>
+void walk(const Lines& a, V& v) {
+  for (const auto* lines : {&a.lines.tmax, &a.lines.tmin})
+    for (const auto& coordinate : *lines) v.array(coordinate);
+  v.array(a.lines.confidence);
+}
+template <class V>
 void walk(const Ridges& a, V& v) {
   walk(a.curves, v);
 }

@@ -72,22 +72,29 @@ LayoutPorts add_layout_stages(Flow& flow, const Port<Soup>& soup, const LayoutOp
   p.curves = add_stage(flow, Stage<Curves, Surface, Ridges, Ridges, Sharp>{"curves", 1, hash, curves, {}, 0.5}, surface,
                        p.ridges, p.valleys, sharp);
 
-  const auto network = [options](const Work& w, const Surface& s, const Curvature& k, const Curves& c) {
-    return curves_to_network(w, s, k, c, options);
+  const auto directions = [options](const Work& w, const Surface& s, const Curvature& k) {
+    return curvature_to_directions(w, s, k, options);
   };
-  p.network = add_stage(flow, Stage<Network, Surface, Curvature, Curves>{"network", 1, hash, network, {}, 1}, surface,
-                        curvature, p.curves);
+  const Port<Directions> guide =
+      add_stage(flow, Stage<Directions, Surface, Curvature>{"network", 1, hash, directions, "directions", 0.1}, surface,
+                curvature);
+  p.lines = add_stage(flow, Stage<Lines, Curvature>{"curvature", 1, hash, curvature_to_lines, "lines", 0.01}, curvature);
+  const auto network = [options](const Work& w, const Surface& s, const Directions& d, const Curves& c) {
+    return curves_to_network(w, s, d, c, options);
+  };
+  p.network = add_stage(flow, Stage<Network, Surface, Directions, Curves>{"network", 1, hash, network, {}, 1}, surface,
+                        guide, p.curves);
 
   const auto patches = [options](const Work& w, const Surface& s, const Network& n) {
     return network_to_patches(w, s, n, options);
   };
   p.patches = add_stage(flow, Stage<Patches, Surface, Network>{"patches", 1, hash, patches, {}, 1}, surface, p.network);
 
-  const auto smoothing = [options](const Work& w, const Surface& s, const Curvature& k, const Network& n,
-                                   const Patches& q) { return patches_to_smoothing(w, s, k, n, q, options); };
+  const auto smoothing = [options](const Work& w, const Surface& s, const Lines& l, const Network& n,
+                                   const Patches& q) { return patches_to_smoothing(w, s, l, n, q, options); };
   p.smoothing = add_stage(
-      flow, Stage<Smoothing, Surface, Curvature, Network, Patches>{"layout", 1, hash, smoothing, "smoothing", 0.3},
-      surface, curvature, p.network, p.patches);
+      flow, Stage<Smoothing, Surface, Lines, Network, Patches>{"layout", 1, hash, smoothing, "smoothing", 0.3}, surface,
+      p.lines, p.network, p.patches);
   const auto layout = [options](const Work& w, const Surface& s, const Smoothing& a) {
     return smoothing_to_layout(w, s, a, options);
   };

@@ -20,6 +20,7 @@ struct LayoutPorts {
   Port<Curves> curves;
   Port<Network> network;
   Port<Patches> patches;
+  Port<Lines> lines;
   Port<Smoothing> smoothing;
   Port<Layout> layout;
 };

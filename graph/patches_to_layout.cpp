@@ -137,14 +137,17 @@ Network outline_of(const Work& work, const Network& network) {
 
 }  // namespace
 
-Smoothing patches_to_smoothing(const Work& work, const Surface& surface, const Curvature& curvature,
-                               const Network& network, const Patches& patches, const LayoutOptions& options) {
+Lines curvature_to_lines(const Work& work, const Curvature& curvature) {
+  return {principal_lines(work, curvature.fields)};
+}
+
+Smoothing patches_to_smoothing(const Work& work, const Surface& surface, const Lines& lines, const Network& network,
+                               const Patches& patches, const LayoutOptions& options) {
   const RefinedMesh& refined = network.refined;
   const PatchLabels& labels = patches.labels;
   Smoothing s;
   s.graph = trace_boundaries(work, refined, labels.patch_of_face, labels.count);
-  s.arcs =
-      smooth_boundaries(work, surface.mesh, refined, s.graph, labels.patch_of_face, curvature.fields, options.smooth);
+  s.arcs = smooth_boundaries(work, surface.mesh, refined, s.graph, labels.patch_of_face, lines.lines, options.smooth);
   s.shares = label_shares(work, surface.mesh, refined, labels.patch_of_face);
   if (options.guard_smoothing)
     s.error = patch_errors(work, surface, refined, labels, s.graph, options.check.hole_length);
@@ -187,7 +190,8 @@ Layout smoothing_to_layout(const Work& work, const Surface& surface, const Smoot
 
 Layout patches_to_layout(const Work& work, const Surface& surface, const Curvature& curvature, const Network& network,
                          const Patches& patches, const LayoutOptions& options) {
-  return smoothing_to_layout(work, surface, patches_to_smoothing(work, surface, curvature, network, patches, options),
+  const Lines lines = curvature_to_lines(work, curvature);
+  return smoothing_to_layout(work, surface, patches_to_smoothing(work, surface, lines, network, patches, options),
                              options);
 }
 

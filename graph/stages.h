@@ -17,12 +17,15 @@ Sharp surface_to_sharp(const Work& work, const Surface& surface, const LayoutOpt
 Scale surface_to_scale(const Work& work, const Surface& surface, const Sharp& sharp, const LayoutOptions& options);
 Curvature scale_to_curvature(const Work& work, const Surface& surface, const Scale& scale, const Sharp& sharp,
                              const LayoutOptions& options);
+Directions curvature_to_directions(const Work& work, const Surface& surface, const Curvature& curvature,
+                                   const LayoutOptions& options);
+Lines curvature_to_lines(const Work& work, const Curvature& curvature);
 // channel: ridge or valley.
 Ridges curvature_to_ridges(const Work& work, const Surface& surface, const Curvature& curvature, const Sharp& sharp,
                            CurveKind channel, const LayoutOptions& options);
 Curves ridges_to_curves(const Work& work, const Surface& surface, const Ridges& ridges, const Ridges& valleys,
                         const Sharp& sharp, const LayoutOptions& options);
-Network curves_to_network(const Work& work, const Surface& surface, const Curvature& curvature, const Curves& curves,
+Network curves_to_network(const Work& work, const Surface& surface, const Directions& directions, const Curves& curves,
                           const LayoutOptions& options);
 Patches network_to_patches(const Work& work, const Surface& surface, const Network& network,
                            const LayoutOptions& options);
@@ -30,11 +33,11 @@ Patches network_to_patches(const Work& work, const Surface& surface, const Netwo
 // With that many already only borders are refined. Requires: options.form is not faithful.
 Patches improve_patches(const Work& work, const Surface& surface, const Network& network, const PatchLabels& start,
                         const LayoutOptions& options);
-Smoothing patches_to_smoothing(const Work& work, const Surface& surface, const Curvature& curvature,
-                               const Network& network, const Patches& patches, const LayoutOptions& options);
+Smoothing patches_to_smoothing(const Work& work, const Surface& surface, const Lines& lines, const Network& network,
+                               const Patches& patches, const LayoutOptions& options);
 Layout smoothing_to_layout(const Work& work, const Surface& surface, const Smoothing& smoothing,
                            const LayoutOptions& options);
-// Both.
+// Both, and the lines.
 Layout patches_to_layout(const Work& work, const Surface& surface, const Curvature& curvature, const Network& network,
                          const Patches& patches, const LayoutOptions& options);
 

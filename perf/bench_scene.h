@@ -17,6 +17,7 @@ struct BenchScene {
   graph::Curvature curvature;
   graph::Ridges ridges, valleys;
   graph::Curves curves;
+  graph::Directions directions;
   graph::Network network;
   graph::Patches patches;
 

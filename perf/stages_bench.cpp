@@ -71,13 +71,12 @@ void direction_field(benchmark::State& state) {
 void network(benchmark::State& state) {
   const BenchScene& s = bench_scene();
   measure(state, s.faces(),
-          [&] { return graph::curves_to_network(Work(), s.surface, s.curvature, s.curves, s.options); });
+          [&] { return graph::curves_to_network(Work(), s.surface, s.directions, s.curves, s.options); });
 }
 void flood(benchmark::State& state) {
   const BenchScene& s = bench_scene();
   for (auto _ : state)
-    benchmark::DoNotOptimize(
-        kernels::flood_patches(Work(), s.network.refined.mesh, s.network.refined.on_network));
+    benchmark::DoNotOptimize(kernels::flood_patches(Work(), s.network.refined.mesh, s.network.refined.on_network));
   report(state, s.network.refined.mesh.face_count(), s.network.refined.mesh.face_count() * sizeof(Index));
 }
 void patches(benchmark::State& state) {
@@ -86,9 +85,8 @@ void patches(benchmark::State& state) {
 }
 void layout(benchmark::State& state) {
   const BenchScene& s = bench_scene();
-  measure(state, s.faces(), [&] {
-    return graph::patches_to_layout(Work(), s.surface, s.curvature, s.network, s.patches, s.options);
-  });
+  measure(state, s.faces(),
+          [&] { return graph::patches_to_layout(Work(), s.surface, s.curvature, s.network, s.patches, s.options); });
 }
 
 #define INTARSIA_BENCH(f) BENCHMARK(f)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()

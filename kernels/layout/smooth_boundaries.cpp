@@ -35,23 +35,15 @@ struct Points {
   Csr spokes;                        // node -> neighbouring points
 };
 
-// |kmax| and |kmin| far apart and large enough to matter: 0 where principal directions mean nothing.
-Real confidence(const CurvatureFields& fields, Index v) {
-  if (!fields.direction_ok[v] || fields.status[v] == FitStatus::invalid) return 0;
-  const Real a = std::abs(fields.kmax[v]), b = std::abs(fields.kmin[v]), high = std::max(a, b);
-  if (!(high > 0) || !std::isfinite(high)) return 0;
-  return std::abs(a - b) / high * std::min(Real{1}, high / 2);
-}
-
 // The direction across X at a point, J X, scaled so that its squared length is the confidence.
-Vec3 across(const MeshView& mesh, const CurvatureFields& fields, const FacePoint& p, Direction choice) {
-  if (fields.vertex_count() == 0) return Vec3::Zero();
-  const Vec3View field = choice == Direction::t_max ? fields.tmax : fields.tmin;
+Vec3 across(const MeshView& mesh, const PrincipalLines& lines, const FacePoint& p, Direction choice) {
+  if (lines.vertex_count() == 0) return Vec3::Zero();
+  const auto& line = choice == Direction::t_max ? lines.tmax : lines.tmin;
   Vec3 mean = Vec3::Zero();
   for (int i = 0; i < 3; ++i) {
     const Index v = mesh.corner[3 * p.face + i];
-    const Real w = p.weight[i] * confidence(fields, v);
-    const Vec3 x = field[v];
+    const Real w = p.weight[i] * lines.confidence[v];
+    const Vec3 x(line[0][v], line[1][v], line[2][v]);
     mean += mean.dot(x) < 0 ? Vec3(-w * x) : Vec3(w * x);  // lines, not arrows
   }
   Vec3 n = area_normal(mesh, p.face);
@@ -198,7 +190,7 @@ void set_reach(const Work& work, const MeshView& original, const RefinedMesh& re
   });
 }
 
-std::vector<Direction> choose_directions(const Work& work, const MeshView& mesh, const CurvatureFields& fields,
+std::vector<Direction> choose_directions(const Work& work, const MeshView& mesh, const PrincipalLines& lines,
                                          const LayoutGraph& graph, const SmoothOptions& options,
                                          const std::vector<Index>& offset, const Points& p) {
   std::vector<Direction> choice(graph.arc_count(), Direction::t_min);
@@ -209,8 +201,8 @@ std::vector<Direction> choose_directions(const Work& work, const MeshView& mesh,
       const Vec3 d = p.position[p.after[i]] - p.position[p.before[i]];
       const Real length = d.norm();
       if (!(length > 0)) continue;
-      const Real s = d.dot(across(mesh, fields, p.at[i], Direction::t_min));
-      const Real t = d.dot(across(mesh, fields, p.at[i], Direction::t_max));
+      const Real s = d.dot(across(mesh, lines, p.at[i], Direction::t_min));
+      const Real t = d.dot(across(mesh, lines, p.at[i], Direction::t_max));
       along_min += s * s / length, along_max += t * t / length;
     }
     if (along_max < along_min) choice[a] = Direction::t_max;
@@ -219,13 +211,13 @@ std::vector<Direction> choose_directions(const Work& work, const MeshView& mesh,
 }
 
 // One Jacobi step of every point towards the minimum of its quadratic form; returns the longest move in units of reach.
-Real step(const Work& work, const MeshView& mesh, const CurvatureFields& fields, const SmoothOptions& options,
+Real step(const Work& work, const MeshView& mesh, const PrincipalLines& lines, const SmoothOptions& options,
           const std::vector<Direction>& choice, Points& p, Points& next) {
   const std::size_t n = p.at.size();
   const Real alignment = 1 / std::max(options.length_weight, Real{1e-3});  // lambda 0 alone has no minimum
   std::vector<Vec3> j(n, Vec3::Zero());
   for_each(work, Cost::medium, n, [&](std::size_t i) {
-    if (p.arc[i] != kNone) j[i] = across(mesh, fields, p.at[i], choice[p.arc[i]]);
+    if (p.arc[i] != kNone) j[i] = across(mesh, lines, p.at[i], choice[p.arc[i]]);
   });
   return reduce(
       work, Cost::heavy, n, Real{0},
@@ -273,10 +265,10 @@ SurfacePoint inside_face(const FacePoint& p) {
 }  // namespace
 
 SmoothedArcs smooth_boundaries(const Work& work, MeshView original, const RefinedMesh& refined,
-                               const LayoutGraph& graph, std::span<const Index> label, const CurvatureFields& fields,
+                               const LayoutGraph& graph, std::span<const Index> label, const PrincipalLines& lines,
                                const SmoothOptions& options) {
-  if (fields.vertex_count() != 0 && fields.vertex_count() != original.vertex_count())
-    throw Error(ErrorCode::internal, "smooth_boundaries needs fields per original vertex");
+  if (lines.vertex_count() != 0 && lines.vertex_count() != original.vertex_count())
+    throw Error(ErrorCode::internal, "smooth_boundaries needs lines per original vertex");
   SmoothedArcs out;
   out.offset.push_back(0);
   for (Index a = 0; a < graph.arc_count(); ++a)
@@ -284,10 +276,10 @@ SmoothedArcs smooth_boundaries(const Work& work, MeshView original, const Refine
   Points p = collect_points(work, original, refined, graph, out.offset);
   set_reach(work, original, refined, graph, label, options, out.offset, p);
   const std::vector<FacePoint> first = p.at;
-  const std::vector<Direction> choice = choose_directions(work, original, fields, graph, options, out.offset, p);
+  const std::vector<Direction> choice = choose_directions(work, original, lines, graph, options, out.offset, p);
   Points next = p;
   for (int i = 0; i < options.iterations; ++i) {
-    const Real longest = step(work, original, fields, options, choice, p, next);
+    const Real longest = step(work, original, lines, options, choice, p, next);
     p.at.swap(next.at), p.position.swap(next.position);
     if (longest < 1e-3) break;
   }

@@ -57,7 +57,7 @@ std::vector<Index> grow_regions(const Work& work, const RegionGraph& g, std::spa
   return label;
 }
 
-void grow_faces(const Work& work, const PatchSurface& s, const Vec3View& normal, const Region& region,
+void grow_faces(const Work& work, const PatchSurface& s, const FaceVectors& normal, const Region& region,
                 const RegionGraph& g, std::span<const Index> node_label, std::span<const Index> seed,
                 std::span<const Vec3> proxy, const GrowOptions& options, Regions& regions) {
   const auto core = find_cores(g, node_label, seed);

@@ -26,7 +26,7 @@ std::vector<Index> grow_regions(const Work& work, const RegionGraph& graph, std:
 // region's seed node without them, are given up and grown again face by face.
 // Requires: `graph` of this region, made with the same `normal`; label of every node. Ensures: regions.label written;
 // every region connected.
-void grow_faces(const Work& work, const PatchSurface& surface, const Vec3View& normal, const Region& region,
+void grow_faces(const Work& work, const PatchSurface& surface, const FaceVectors& normal, const Region& region,
                 const RegionGraph& graph, std::span<const Index> node_label, std::span<const Index> seed,
                 std::span<const Vec3> proxy, const GrowOptions& options, Regions& regions);
 

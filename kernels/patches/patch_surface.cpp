@@ -90,10 +90,14 @@ PatchSurface make_patch_surface(const Work& work, const RefinedMesh& refined, Ve
   return s;
 }
 
-Vec3Array smooth_normals(const Work& work, const PatchSurface& s, std::span<const Index> label, int rounds) {
+SmoothNormals smooth_normals(const Work& work, const PatchSurface& s, std::span<const Index> label, int rounds) {
   const std::size_t faces = s.normal.size();
-  Vec3Array normal(faces);
-  for_each(work, Cost::light, faces, [&](std::size_t f) { normal.set(f, s.normal[static_cast<Index>(f)]); });
+  SmoothNormals normal;
+  for (auto& c : normal.coordinate) c.resize(faces);
+  for_each(work, Cost::light, faces, [&](std::size_t f) {
+    const Vec3 n = s.normal[static_cast<Index>(f)];
+    for (int i = 0; i < 3; ++i) normal.coordinate[static_cast<std::size_t>(i)][f] = static_cast<float>(n[i]);
+  });
   if (rounds == 0) return normal;
   std::vector<Index> near(3 * faces);  // neighbours of the same label
   for_each(work, Cost::light, faces, [&](std::size_t f) {
@@ -102,17 +106,17 @@ Vec3Array smooth_normals(const Work& work, const PatchSurface& s, std::span<cons
       near[3 * f + static_cast<std::size_t>(k)] = g != kNone && label[g] == label[f] ? g : kNone;
     }
   });
-  std::vector<Real> next(faces);
-  for (std::vector<Real>* now : {&normal.x, &normal.y, &normal.z})  // one at a time: less memory
+  std::vector<float> next(faces);
+  for (auto& now : normal.coordinate)  // one at a time: less memory
     for (int round = 0; round < rounds; ++round) {
-      const Real* const c = now->data();
+      const float* const c = now.data();
       for_each(work, Cost::light, faces, [&](std::size_t f) {
         Real sum = s.area[f] * c[f], area = s.area[f];
         for (std::size_t k = 3 * f; k < 3 * f + 3; ++k)
           if (const Index g = near[k]; g != kNone) sum += s.area[g] * c[g], area += s.area[g];
-        next[f] = area > 0 ? sum / area : 0;
+        next[f] = area > 0 ? static_cast<float>(sum / area) : 0.0f;
       });
-      now->swap(next);
+      now.swap(next);
     }
   return normal;
 }

@@ -144,7 +144,7 @@ class Halving {
   const PatchSurface& s_;
   const ReachOptions& options_;
   Regions regions_;
-  Vec3Array normal_;
+  SmoothNormals normal_;
   std::vector<std::vector<Index>> faces_;
   std::priority_queue<std::tuple<Real, Real, Index>> queue_;
 };

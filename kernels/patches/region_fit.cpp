@@ -107,7 +107,7 @@ std::vector<Index> RegionFit::add_seed_locally(const Work& work, Index r, bool a
   return changed;
 }
 
-void RegionFit::write(const Work& work, const PatchSurface& s, const Vec3View& normal, const Region& region,
+void RegionFit::write(const Work& work, const PatchSurface& s, const FaceVectors& normal, const Region& region,
                       const GrowOptions& grow, const RelaxOptions& relax, Regions& regions) const {
   for (const Index f : region.faces) regions.label[f] = region.label;
   if (graph_->is_faces) {

@@ -26,7 +26,7 @@ class RegionFit {
   bool add_seed_everywhere(const Work& work, Index r, const ProxyOptions& options);
   // Region of every face into regions.label, borders between them relaxed. `region` and `normal` are what the graph was
   // made with; its faces must have label 0, or labels of an earlier fit to the same region.
-  void write(const Work& work, const PatchSurface& surface, const Vec3View& normal, const Region& region,
+  void write(const Work& work, const PatchSurface& surface, const FaceVectors& normal, const Region& region,
              const GrowOptions& grow, const RelaxOptions& relax, Regions& regions) const;
   // Can region r take one more seed?
   bool can_divide(Index r) const { return worst_node(r) != kNone; }

@@ -94,7 +94,7 @@ class Seeding {
   const PatchSurface& s_;
   const ErrorSeedOptions& options_;
   Regions regions_;
-  Vec3Array normal_;
+  SmoothNormals normal_;
   Csr faces_;
   std::vector<Source> source_;
   Index count_;

@@ -42,7 +42,7 @@ std::vector<Index> first_seeds(const RegionGraph& g, Index count, Index patch, c
   return seeds;
 }
 
-Index split_region(const Work& work, const PatchSurface& s, const Vec3View& normal, const Region& region,
+Index split_region(const Work& work, const PatchSurface& s, const FaceVectors& normal, const Region& region,
                    const SplitOptions& options, Regions& regions) {
   const RegionGraph g = make_region_graph(work, s, region, node_size_for(region.faces.size()), normal, regions);
   const Csr faces_of_node = faces_of_patches({g.node_of_face, g.nodes()});
@@ -88,7 +88,7 @@ SplitOptions paper_split(std::uint64_t seed) {
 PatchLabels split_patches(const Work& work, const PatchSurface& s, const PatchLabels& labels,
                           const SplitOptions& options) {
   Regions regions(labels);
-  const Vec3Array normal = smooth_normals(work, s, labels.patch_of_face, options.smoothing);
+  const SmoothNormals normal = smooth_normals(work, s, labels.patch_of_face, options.smoothing);
   const Csr faces = faces_of_patches(labels);
   const auto order = largest_first(faces);
   std::vector<Index> count(labels.count, 1);
@@ -99,7 +99,7 @@ PatchLabels split_patches(const Work& work, const PatchSurface& s, const PatchLa
   return collect_regions(work, regions, count);
 }
 
-Index approximate_region(const Work& work, const PatchSurface& s, const Vec3View& normal, const Region& region,
+Index approximate_region(const Work& work, const PatchSurface& s, const FaceVectors& normal, const Region& region,
                          Index count, const SplitOptions& options, Regions& regions) {
   const Index node_size =
       count * 8 > region.faces.size() / node_size_for(region.faces.size()) ? 1 : node_size_for(region.faces.size());

@@ -34,7 +34,7 @@ PatchLabels split_patches(const Work& work, const PatchSurface& surface, const P
 
 // Approximation of one region by exactly `count` proxies (fewer only if it has fewer nodes); writes regions.label and
 // returns the number of regions. `normal`: smooth_normals of the surface.
-Index approximate_region(const Work& work, const PatchSurface& surface, const Vec3View& normal, const Region& region,
+Index approximate_region(const Work& work, const PatchSurface& surface, const FaceVectors& normal, const Region& region,
                          Index count, const SplitOptions& options, Regions& regions);
 
 }  // namespace intarsia::kernels

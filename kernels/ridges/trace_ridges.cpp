@@ -40,7 +40,8 @@ Real sharpness_at(const MeshView& mesh, const CrestFields& crest, Index edge, co
   return std::clamp(-es / (ss * cube), Real(-100), Real(100));
 }
 
-void fill_crossing(const MeshView& mesh, const CrestFields& crest, Index edge, Real a, Index i, FeatureCurves& out) {
+void fill_crossing(const MeshView& mesh, const CrestFields& crest, Index edge, Real a, Index i,
+                   CurvatureFalloff& falloff, FeatureCurves& out) {
   const CurvatureFields& f = crest.fields;
   const Index v1 = mesh.edge_v0[edge], v2 = mesh.edge_v1[edge];
   const auto mix = [&](const std::vector<Real>& x) { return (1 - a) * x[v1] + a * x[v2]; };
@@ -59,8 +60,8 @@ void fill_crossing(const MeshView& mesh, const CrestFields& crest, Index edge, R
   out.extremality[i] = (1 - a) * std::hypot(f.emax[v1], f.emin[v1]) + a * std::hypot(f.emax[v2], f.emin[v2]);
   const Vec3 p = (1 - a) * mesh.point(v1) + a * mesh.point(v2);
   const bool wide = is_disc(f.ring[v1]) && is_disc(f.ring[v2]) && out.kd[i] > 0;
-  out.sharpness[i] = wide ? 2 * curvature_falloff(mesh, crest, v1, p, across, out.kd[i])
-                          : sharpness_at(mesh, crest, edge, p, across, out.kd[i]);
+  out.sharpness[i] =
+      wide ? 2 * falloff.at(v1, p, across, out.kd[i]) : sharpness_at(mesh, crest, edge, p, across, out.kd[i]);
 }
 
 // A centre node: means over its three crossings.
@@ -148,9 +149,11 @@ FeatureCurves trace_ridges(const Work& work, const MeshView& mesh, const Curvatu
 
   FeatureCurves out;
   out.resize_points(nodes);
-  for_each(work, Cost::medium, crossings.size(), [&](std::size_t i) {
+  for_each_block(work, Cost::medium, crossings.size(), [&](std::size_t begin, std::size_t end, std::size_t) {
     // Not the smoothed extremality: that would blunt what `sharpness` is to tell.
-    fill_crossing(mesh, measured, crossings.edge[i], crossings.position[i], static_cast<Index>(i), out);
+    CurvatureFalloff falloff(mesh, measured);
+    for (std::size_t i = begin; i < end; ++i)
+      fill_crossing(mesh, measured, crossings.edge[i], crossings.position[i], static_cast<Index>(i), falloff, out);
   });
   std::vector<Index> centre_crossing(3 * graph.centre_face.size(), kNone);
   for (Index s = 0; s < graph.segment_count(); ++s) {

@@ -31,7 +31,8 @@ INTARSIA_END_SET
 
 }  // namespace
 
-void DiscVoting::run(std::span<const Index> clusters, int code, std::span<Real> variation) {
+void DiscVoting::run(std::span<const Index> clusters, std::span<const Vec3> centres, int code,
+                     std::span<Real> variation) {
   struct alignas(64) Sums {
     float of[6 * kPack];
   };
@@ -44,7 +45,8 @@ void DiscVoting::run(std::span<const Index> clusters, int code, std::span<Real> 
     for (std::size_t l = 0; l < count; ++l) {
       const Index c = clusters[begin + l];
       const DiscSamples::View samples = samples_.around(c, code);
-      const Vec3 at = build_.levels.level[0].centre[c] - samples.origin;
+      const Vec3 centre = centres.empty() ? build_.levels.level[0].centre[c] : centres[begin + l];
+      const Vec3 at = centre - samples.origin;
       const Disc disc{static_cast<float>(at.x()),           static_cast<float>(at.y()),
                       static_cast<float>(at.z()),           static_cast<float>(1 / samples.radius),
                       static_cast<float>(1 / samples.cell), static_cast<float>(samples.radius / samples.cell + 0.5)};

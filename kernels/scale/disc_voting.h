@@ -17,9 +17,11 @@ class DiscVoting {
   explicit DiscVoting(const LevelBuild& build, InstructionSet set = instruction_set())
       : build_(build), set_(set), samples_(build) {}
 
-  // variation[i] = that of clusters[i] (of level 0) in the disc `code`. Fast where clusters that follow each other have
-  // a parent in common. Requires: as many of both; is_disc(code).
-  void run(std::span<const Index> clusters, int code, std::span<Real> variation);
+  // variation[i] = that of clusters[i] (of level 0) in the disc `code` around centres[i]; without centres, around their
+  // own. Fast where clusters that follow each other have a parent in common. Requires: as many of all; is_disc(code);
+  // centres hardly outside of an ancestor that is not above the level of the disc's samples.
+  void run(std::span<const Index> clusters, std::span<const Vec3> centres, int code, std::span<Real> variation);
+  void run(std::span<const Index> clusters, int code, std::span<Real> variation) { run(clusters, {}, code, variation); }
 
  private:
   const LevelBuild& build_;

@@ -120,12 +120,12 @@ struct Relayout {
   int rounds = 0;
 };
 
-inline Relayout relayout(const LayoutCase& c, const CurvatureFields& fields = {},
+inline Relayout relayout(const LayoutCase& c, const kernels::PrincipalLines& lines = {},
                          const kernels::SmoothOptions& options = {}) {
   const Work work;
   Relayout r;
   r.before = trace(c);
-  r.smoothed = kernels::smooth_boundaries(work, c.mesh, c.refined, r.before, c.label, fields, options);
+  r.smoothed = kernels::smooth_boundaries(work, c.mesh, c.refined, r.before, c.label, lines, options);
   std::vector<std::uint8_t> keep(r.before.arc_count(), 0);
   for (r.rounds = 1; r.rounds <= 4; ++r.rounds) {
     r.crossed = kernels::cross_edges(work, c.mesh, c.refined, r.before, r.smoothed, keep);

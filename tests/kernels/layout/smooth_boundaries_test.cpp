@@ -46,7 +46,7 @@ Index inner_arc(const LayoutGraph& g) {
 }
 
 // Principal directions of a cylinder around z.
-CurvatureFields cylinder_fields(const MeshView& m, Real radius) {
+PrincipalLines cylinder_lines(const MeshView& m, Real radius) {
   CurvatureFields f;
   f.resize(m.vertex_count());
   for (Index v = 0; v < m.vertex_count(); ++v) {
@@ -57,7 +57,7 @@ CurvatureFields cylinder_fields(const MeshView& m, Real radius) {
     f.tmin.set(v, Vec3(0, 0, v % 3 ? 1 : -1));
     f.status[v] = FitStatus::full, f.direction_ok[v] = 1;
   }
-  return f;
+  return principal_lines(Work(), f);
 }
 
 }  // namespace
@@ -139,7 +139,7 @@ TEST_CASE("on a cylinder arcs follow the nearer principal direction") {
     const LayoutGraph g = trace(c);
     const Index a = inner_arc(g);
     REQUIRE(g.is_closed(a));
-    const auto s = smooth_boundaries(Work(), c.mesh, c.refined, g, c.label, cylinder_fields(c.mesh, radius), options);
+    const auto s = smooth_boundaries(Work(), c.mesh, c.refined, g, c.label, cylinder_lines(c.mesh, radius), options);
     for (const Vec3& p : arc_points(c, g, s, a)) CHECK(std::abs(p.z() - height / 2) < 0.05 * h);
     CHECK(length_of(arc_points(c, g, s, a)) == doctest::Approx(2 * std::numbers::pi * radius).epsilon(0.01));
   }
@@ -152,7 +152,7 @@ TEST_CASE("on a cylinder arcs follow the nearer principal direction") {
         },
         CurveKind::subdivision);
     const LayoutGraph g = trace(c);
-    const auto s = smooth_boundaries(Work(), c.mesh, c.refined, g, c.label, cylinder_fields(c.mesh, radius), options);
+    const auto s = smooth_boundaries(Work(), c.mesh, c.refined, g, c.label, cylinder_lines(c.mesh, radius), options);
     int found = 0;
     for (Index a = 0; a < g.arc_count(); ++a) {
       if (g.kind[a] != CurveKind::subdivision) continue;
@@ -181,7 +181,7 @@ TEST_CASE("where principal directions are clear, a slanted arc follows them; els
   }
   SmoothOptions options;
   options.iterations = 400;
-  const auto middle_rise = [&](const CurvatureFields& with) {
+  const auto middle_rise = [&](const PrincipalLines& with) {
     const auto p =
         arc_points(c, g, smooth_boundaries(Work(), c.mesh, c.refined, g, c.label, with, options), inner_arc(g));
     Real low = 1, high = 0;
@@ -190,7 +190,7 @@ TEST_CASE("where principal directions are clear, a slanted arc follows them; els
     return high - low;
   };
   CHECK(middle_rise({}) == doctest::Approx(0.3 / 3).epsilon(0.15));
-  CHECK(middle_rise(fields) < 0.75 * middle_rise({}));
+  CHECK(middle_rise(principal_lines(Work(), fields)) < 0.75 * middle_rise({}));
 }
 
 TEST_CASE("a great circle stays one and a short loop does not collapse") {
