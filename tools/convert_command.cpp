@@ -10,6 +10,7 @@
 #include "tools/export/formats.h"
 #include "tools/interrupt.h"
 #include "tools/layout_handover.h"
+#include "tools/view/write_page.h"
 
 namespace intarsia::tools {
 namespace {
@@ -43,6 +44,11 @@ int convert(const ConvertFlags& flags) {
   OutputFolder folder(flags.output.empty() ? flags.input : flags.output, {files.begin(), files.end()});
   context.execute([&] {
     const auto result = LayoutHandover::read(work, flags.input);
+    if (files.contains("view.html")) {
+      PageOptions page;
+      page.earlier = read_page_parts(std::filesystem::path(flags.input) / "view.html");
+      write_page(work, folder.file("view.html"), result->handover(), page);
+    }
     write_exports(work, result->handover(), files, [&](const std::string& name) { return folder.file(name); });
   });
   folder.commit();

@@ -84,7 +84,11 @@ int eval(EvalFlags& flags) {
   RunContext context(settings, &interrupt_flag());
   const Work work = context.work();
   if (is_folder && !is_result_folder(flags.input)) read_result_folder(work, flags.input);  // says what is missing
-  OutputFolder folder(flags.output.empty() ? flags.input : flags.output, evaluation_names());
+  std::vector<std::string> names = evaluation_names();
+  const std::filesystem::path page = std::filesystem::path(flags.input) / "view.html";
+  const bool has_page = is_folder && std::filesystem::exists(page);
+  if (has_page) names.push_back("view.html");
+  OutputFolder folder(flags.output.empty() ? flags.input : flags.output, names);
   std::string text;
   context.execute([&] {
     const LayoutFromFile layout = read_input(work, flags);
@@ -94,6 +98,7 @@ int eval(EvalFlags& flags) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     text = report_of(flags, layout, evaluation, seconds).dump(1) + "\n";
     write_evaluation(work, folder, layout, evaluation, chosen_view(flags.view));
+    if (has_page) write_evaluated_page(work, folder.file("view.html"), page, layout, evaluation);
     write_file_atomically(folder.file("eval.json"), text);
     if (!flags.json && !flags.quiet) print_text(evaluation, layout.box.diagonal, seconds);
   });

@@ -1,8 +1,10 @@
 #include "tools/layout_handover.h"
 
+#include <fstream>
 #include <numeric>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "engine/io/read_labels.h"
 #include "tools/picture/palette.h"
@@ -22,6 +24,16 @@ std::vector<Index> input_labels(const Work& work, const std::filesystem::path& p
   return label;
 }
 
+// Of the file that was run, or else of the folder.
+std::string input_name(const std::filesystem::path& folder) {
+  const nlohmann::json report =
+      nlohmann::json::parse(std::ifstream(folder / "report.json", std::ios::binary), nullptr, false);
+  const nlohmann::json::json_pointer path("/input/path");
+  if (!report.is_discarded() && report.contains(path) && report[path].is_string())
+    return std::filesystem::path(report[path].get<std::string>()).filename().string();
+  return std::filesystem::weakly_canonical(folder).filename().string();
+}
+
 std::vector<Index> counting(Index n) {
   std::vector<Index> out(n);
   std::iota(out.begin(), out.end(), Index{0});
@@ -31,30 +43,42 @@ std::vector<Index> counting(Index n) {
 }  // namespace
 
 std::unique_ptr<LayoutHandover> LayoutHandover::read(const Work& work, const std::filesystem::path& folder) {
+  LayoutFromFile layout = read_result_folder(work, folder);
+  auto result = of(work, folder, layout);
+  result->layout_ = std::move(layout);
+  result->look_at(result->layout_);
+  return result;
+}
+
+std::unique_ptr<LayoutHandover> LayoutHandover::of(const Work& work, const std::filesystem::path& folder,
+                                                   const LayoutFromFile& layout) {
   std::unique_ptr<LayoutHandover> result(new LayoutHandover);
   LayoutHandover& r = *result;
-  r.layout_ = read_result_folder(work, folder);
-  const Index patches = r.layout_.graph.patch_count();
-  r.labels_ = {r.layout_.label, patches};
-  r.vertex_order_ = counting(r.layout_.soup.vertex_count());
-  r.face_order_ = counting(r.layout_.soup.face_count());
+  const Index patches = layout.graph.patch_count();
+  r.labels_ = {layout.label, patches};
+  r.vertex_order_ = counting(layout.soup.vertex_count());
+  r.face_order_ = counting(layout.soup.face_count());
   r.face_patch_ = input_labels(work, folder / "patches.ply", patches);
   if (r.face_patch_.size() != r.face_order_.size())
     throw Error(ErrorCode::bad_file, (folder / "patches.ply").string() +
                                          ": it has other faces than triangles; let "
                                          "intarsia run write it again");
-  for (const Rgb& c : patch_colours(work, adjacent_patches(work, r.layout_.refined.mesh, r.layout_.label, patches)))
+  for (const Rgb& c : patch_colours(work, adjacent_patches(work, layout.refined.mesh, layout.label, patches)))
     r.colour_.push_back({c.r, c.g, c.b});
-  LayoutView& view = r.handover_.layout;
-  view.soup = &r.layout_.soup;
-  view.vertex_order = r.vertex_order_, view.face_order = r.face_order_;
-  view.centre = r.layout_.box.centre, view.diagonal = r.layout_.box.diagonal;
-  view.refined = &r.layout_.refined, view.labels = &r.labels_, view.graph = &r.layout_.graph;
-  view.interior = &r.no_interior_, view.mesh = r.layout_.mesh, view.face_patch = r.face_patch_;
-  view.patch_colour = r.colour_;
-  r.handover_.name = std::filesystem::weakly_canonical(folder).filename().string();
+  r.handover_.name = input_name(folder);
+  r.look_at(layout);
   complete(work, r.handover_);
   return result;
+}
+
+void LayoutHandover::look_at(const LayoutFromFile& layout) {
+  LayoutView& view = handover_.layout;
+  view.soup = &layout.soup;
+  view.vertex_order = vertex_order_, view.face_order = face_order_;
+  view.centre = layout.box.centre, view.diagonal = layout.box.diagonal;
+  view.refined = &layout.refined, view.labels = &labels_, view.graph = &layout.graph;
+  view.interior = &no_interior_, view.mesh = layout.mesh, view.face_patch = face_patch_;
+  view.patch_colour = colour_;
 }
 
 }  // namespace intarsia::tools

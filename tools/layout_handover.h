@@ -12,18 +12,21 @@ namespace intarsia::tools {
 // are known but not the kinds of single edges.
 class LayoutHandover {
  public:
-  // Errors: bad_file naming the file; rejected.
+  // Errors (of both): bad_file naming the file; rejected.
   static std::unique_ptr<LayoutHandover> read(const Work& work, const std::filesystem::path& folder);
+  // The same where the layout of that folder has been read. Requires: it stays as it is while this lives.
+  static std::unique_ptr<LayoutHandover> of(const Work& work, const std::filesystem::path& folder,
+                                            const LayoutFromFile& layout);
   LayoutHandover(const LayoutHandover&) = delete;
   LayoutHandover& operator=(const LayoutHandover&) = delete;
 
   const Handover& handover() const { return handover_; }
-  const LayoutFromFile& layout() const { return layout_; }
 
  private:
   LayoutHandover() = default;
+  void look_at(const LayoutFromFile& layout);
 
-  LayoutFromFile layout_;
+  LayoutFromFile layout_;  // of read()
   PatchLabels labels_;
   std::vector<Index> vertex_order_, face_order_, face_patch_;
   std::vector<std::array<std::uint8_t, 3>> colour_;

@@ -35,6 +35,8 @@ int main(int argc, char** argv) {
   add_run_command(app, exit_code);
   add_batch_command(app, exit_code);
   add_convert_command(app, exit_code);
+  add_view_command(app, exit_code);
+  add_render_command(app, exit_code);
   add_features_command(app, exit_code);
   add_info_command(app, exit_code);
   add_make_command(app, exit_code);

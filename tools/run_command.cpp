@@ -11,6 +11,7 @@
 #include "tools/exit_code.h"
 #include "tools/report.h"
 #include "tools/stage_command.h"
+#include "tools/view/write_page.h"
 #include "tools/view_flag.h"
 #include "tools/write_flag.h"
 #include "tools/write_result.h"
@@ -27,7 +28,7 @@ struct RunFlags {
   OptionFlags method;
 };
 
-void print_summary(const nlohmann::json& report, const std::filesystem::path& folder) {
+void print_summary(const nlohmann::json& report, const std::filesystem::path& folder, const Exports& exports) {
   fmt::print("{} patches, {} arcs, {} nodes in {:.2f} s ({} threads)\n", report["counts"]["patches"].get<int>(),
              report["counts"]["arcs"].get<int>(), report["counts"]["nodes"].get<int>(), report["seconds"].get<double>(),
              report["threads"].get<int>());
@@ -36,6 +37,9 @@ void print_summary(const nlohmann::json& report, const std::filesystem::path& fo
   for (const std::string& name : result_names())
     if (std::filesystem::exists(folder / name)) names += " " + name;
   fmt::print("written to {}:{}\n", (folder / "").string(), names);
+  if (exports.is_default && report["input"]["triangles"].get<std::size_t>() > kPageFaces)
+    fmt::print("no view.html above {} triangles; for a coarser one: intarsia convert {} --write html\n", kPageFaces,
+               folder.string());
 }
 
 int run(const RunFlags& flags) {
@@ -64,7 +68,7 @@ int run(const RunFlags& flags) {
   write_file_atomically(folder.file("report.json"), text_of(report));
   folder.commit();
   command.write_records(report);
-  if (!flags.common.quiet) print_summary(report, folder.target());
+  if (!flags.common.quiet) print_summary(report, folder.target(), exports);
   return report["valid"].get<bool>() ? kExitDone : kExitDegraded;
 }
 
@@ -78,7 +82,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("-n,--patches", flags->patches, "wanted number of patches; 0 = automatic")
       ->check(CLI::NonNegativeNumber);
   add_picture_flags(*command, flags->picture);
-  add_write_flag(*command, flags->write, "csv,npy");
+  add_write_flag(*command, flags->write, "csv,npy,html");
   add_common_flags(*command, flags->common);
   flags->method.add_to(*command);
   command->callback([flags, &exit_code] { exit_code = run(*flags); });

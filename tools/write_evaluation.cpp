@@ -6,11 +6,13 @@
 
 #include "engine/io/write_ply.h"
 #include "tools/deviation.h"
+#include "tools/layout_handover.h"
 #include "tools/picture/best_view.h"
 #include "tools/picture/palette.h"
 #include "tools/picture/png_file.h"
 #include "tools/picture/strip.h"
 #include "tools/rebuilt_shape.h"
+#include "tools/view/write_page.h"
 
 namespace intarsia::tools {
 namespace {
@@ -197,6 +199,23 @@ void write_evaluation(const Work& work, const OutputFolder& folder, const Layout
   const Deviation deviation{layout.soup, evaluation.made().front().second->distance, layout.box.diagonal};
   write_deviation_ply(work, folder.file("deviation.ply"), deviation, deviation_scale(deviation));
   write_png(folder.file("eval.png"), draw_evaluation(work, layout, evaluation, view));
+}
+
+void write_evaluated_page(const Work& work, const std::filesystem::path& path, const std::filesystem::path& earlier,
+                          const LayoutFromFile& layout, const graph::Evaluation& evaluation) {
+  const auto made = evaluation.made();
+  const auto& [name, rebuilt] = made.front();
+  const kernels::SurfaceDistance& d = rebuilt->distance;
+  PageDeviation deviation;
+  deviation.vertex = d.vertex_distance;
+  for (const auto& patch : rebuilt->patch) deviation.patch_rms.push_back(patch.rms);
+  deviation.top = deviation_scale({layout.soup, d, layout.box.diagonal}).top / 100;
+  deviation.caption =
+      fmt::format("{}: RMS {}, largest {} of the diagonal", title_of(name), percent(d.rms()), percent(d.hausdorff()));
+  PageOptions options;
+  options.deviation = &deviation;
+  options.earlier = read_page_parts(earlier);
+  write_page(work, path, LayoutHandover::of(work, earlier.parent_path(), layout)->handover(), options);
 }
 
 }  // namespace intarsia::tools

@@ -24,6 +24,11 @@ nlohmann::json evaluation_json(const graph::Evaluation& evaluation, const graph:
 void write_evaluation(const Work& work, const OutputFolder& folder, const LayoutFromFile& layout,
                       const graph::Evaluation& evaluation, const std::optional<View>& view);
 
+// The page of the result again, now with the distances of the surface that deviation.ply shows. earlier: the page
+// there.
+void write_evaluated_page(const Work& work, const std::filesystem::path& path, const std::filesystem::path& earlier,
+                          const LayoutFromFile& layout, const graph::Evaluation& evaluation);
+
 // Layout and rebuilt surfaces above, input and deviations below.
 Image draw_evaluation(const Work& work, const LayoutFromFile& layout, const graph::Evaluation& evaluation,
                       const std::optional<View>& view);

@@ -3,6 +3,7 @@
 #include "tools/picture/palette.h"
 #include "tools/picture/png_file.h"
 #include "tools/preview.h"
+#include "tools/view/write_page.h"
 
 namespace intarsia::tools {
 namespace {
@@ -35,18 +36,18 @@ std::vector<std::array<std::uint8_t, 3>> bytes_of(const std::vector<Rgb>& colour
   return rgb;
 }
 
-void write_layout_files(const Work& work, const OutputFolder& folder, const Handover& handover,
-                        const Exports& exports) {
+void write_layout_files(const Work& work, const OutputFolder& folder, const Handover& handover, const FileSet& files) {
   const LayoutView& layout = handover.layout;
   write_patches_ply(work, folder.file("patches.ply"), layout);
   write_layout_ply(work, folder.file("layout.ply"), layout);
   write_network_ply(work, folder.file("network.ply"), layout);
   write_network_json(work, folder.file("network.json"), layout);
-  write_exports(work, handover, exports.files, [&](const std::string& name) { return folder.file(name); });
+  if (files.contains("view.html")) write_page(work, folder.file("view.html"), handover);
+  write_exports(work, handover, files, [&](const std::string& name) { return folder.file(name); });
 }
 
 // The run's lines cost a copy: made only where a file needs them.
-bool needs_features(const FileSet& files) { return files.contains("features.vtp"); }
+bool needs_features(const FileSet& files) { return files.contains("features.vtp") || files.contains("view.html"); }
 
 void draw(const Work& work, const OutputFolder& folder, Strip strip, const Pictures& pictures) {
   strip.options.view = pictures.view;
@@ -82,9 +83,11 @@ Written write_result(const Work& work, const OutputFolder& folder, const Soup& s
   const auto rgb = bytes_of(colour);
   Handover handover = handover_of(work, soup, surface, layout, rgb, exports.name);
   FeatureLines features;
-  if (needs_features(exports.files))
+  FileSet files = exports.files;
+  if (exports.is_default && soup.face_count() > kPageFaces) files.erase("view.html");
+  if (needs_features(files))
     features = feature_lines(work, surface, ridges, valleys, sharp, network), handover.features = &features;
-  write_layout_files(work, folder, handover, exports);
+  write_layout_files(work, folder, handover, files);
   draw(work, folder, preview_strip({surface, ridges, valleys, sharp, network, layout, colour}), pictures);
   return count_files(folder);
 }
@@ -94,7 +97,7 @@ Written write_baseline(const Work& work, const OutputFolder& folder, const Soup&
                        const Pictures& pictures, const Exports& exports) {
   const std::vector<Rgb> colour = colours_of(work, layout);
   const auto rgb = bytes_of(colour);
-  write_layout_files(work, folder, handover_of(work, soup, surface, layout, rgb, exports.name), exports);
+  write_layout_files(work, folder, handover_of(work, soup, surface, layout, rgb, exports.name), exports.files);
   draw(work, folder, baseline_strip({surface, patches, layout, method, colour}), pictures);
   return count_files(folder);
 }

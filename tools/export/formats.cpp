@@ -25,6 +25,7 @@ const std::vector<Format>& formats() {
                                           {"csv", {"patches.csv"}},
                                           {"polylines", {"network.polylines.txt"}},
                                           {"glb", {"layout.glb"}},
+                                          {"html", {"view.html"}},
                                           {"quadwild", quadwild_names()}};
   return all;
 }
@@ -89,10 +90,10 @@ FileSet export_files(const std::vector<std::string>& list) {
   return files;
 }
 
-std::vector<std::string> default_exports() { return {"csv", "npy"}; }
+std::vector<std::string> default_exports() { return {"csv", "npy", "html"}; }
 
 std::string export_help() {
-  return "more files to write, separated by commas: vtp obj seg npy csv polylines glb quadwild, names of files, "
+  return "more files to write, separated by commas: vtp obj seg npy csv polylines glb html quadwild, names of files, "
          "all, none";
 }
 

@@ -1,5 +1,5 @@
 // A layout with known truth: the cube [0, 3]^3 moved to (10, 20, 30), a patch on each side, every edge of the cube one
-// arc of two segments.
+// arc of as many segments as there are cells along it.
 #pragma once
 
 #include <array>
@@ -19,7 +19,6 @@
 namespace intarsia::test {
 
 struct LabelledCube {
-  static constexpr Index kCells = 2;  // along a side
   static inline const Vec3 kCorner = Vec3(10, 20, 30);
   static constexpr Real kSide = 3;
 
@@ -33,8 +32,8 @@ struct LabelledCube {
   tools::FeatureLines features;
   tools::Handover handover;
 
-  LabelledCube() {
-    soup = transformed(cube(kCells), [](const Vec3& p) -> Vec3 { return kCorner + kSide * p; });
+  explicit LabelledCube(Index cells = 2) {
+    soup = transformed(cube(cells), [](const Vec3& p) -> Vec3 { return kCorner + kSide * p; });
     const Work work;
     const kernels::BoxTransform box = kernels::normalise_box(work, soup);
     Mesh& mesh = refined.mesh;

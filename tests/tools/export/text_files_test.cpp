@@ -224,5 +224,6 @@ TEST_CASE("--write takes formats and files, and knows what was meant") {
     return "";
   };
   CHECK(message("vpt").find("did you mean 'vtp'") != std::string::npos);
+  CHECK(message("htm").find("did you mean 'html'") != std::string::npos);
   CHECK(message("patchs.obj").find("did you mean 'patches.obj'") != std::string::npos);
 }

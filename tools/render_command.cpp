@@ -1,0 +1,134 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "engine/run/context.h"
+#include "tools/commands.h"
+#include "tools/exit_code.h"
+#include "tools/interrupt.h"
+#include "tools/layout_handover.h"
+#include "tools/picture/best_view.h"
+#include "tools/picture/png_file.h"
+#include "tools/picture/shade.h"
+#include "tools/view_flag.h"
+
+namespace intarsia::tools {
+namespace {
+
+constexpr int kMostPixels = 16384;  // along a side
+
+struct RenderFlags {
+  std::string input, output, size = "1600x1200", stage = "patches", lines = "auto";
+  std::vector<double> view, camera;
+  double zoom = 1, line_width = 1, perspective = 0.16;
+  int samples = 4, threads = 0;
+  bool quiet = false;
+};
+
+std::pair<int, int> size_of(const std::string& text) {
+  int width = 0, height = 0, read = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &read) != 2 ||
+      static_cast<std::size_t>(read) != text.size() || std::min(width, height) < 32 ||
+      std::max(width, height) > kMostPixels)
+    throw Error(ErrorCode::bad_argument,
+                fmt::format("--size: '{}' is no size like 1600x1200 with sides from 32 to {}", text, kMostPixels));
+  return {width, height};
+}
+
+View view_of(const Work& work, const RenderFlags& flags, const Shape& shape) {
+  if (flags.camera.empty()) {
+    const auto chosen = chosen_view(flags.view);
+    return chosen ? *chosen : best_view(work, shape);
+  }
+  const std::vector<double>& c = flags.camera;
+  View view;
+  view.toward = Vec3(c[0], c[1], c[2]).normalized();
+  view.up = c.size() == 6 ? Vec3(c[3], c[4], c[5]).normalized() : best_view(work, shape).up;
+  if (!(view.toward.cross(view.up).norm() > 1e-6))
+    throw Error(ErrorCode::bad_argument, "--camera: the direction and the vertical must differ, and not be zero");
+  return view;
+}
+
+Lines arc_lines(const LayoutView& layout, const RenderFlags& flags, Real scale) {
+  const MeshView mesh = layout.refined->mesh;
+  const bool by_kind = flags.lines == "kinds" || (flags.lines == "auto" && flags.stage == "network");
+  Lines lines;
+  std::vector<Vec3> point;
+  for (Index a = 0; a < layout.graph->arc_count(); ++a) {
+    LineStyle style = by_kind ? style_of(layout.graph->kind[a]) : LineStyle{{44, 44, 50}, 1.7f};
+    style.width *= static_cast<float>(scale * flags.line_width);
+    point.clear();
+    for (const Index v : layout.graph->arc.row(a)) point.push_back(mesh.point(v));
+    lines.add(point, style);
+  }
+  return lines;
+}
+
+Image draw(const Work& work, const RenderFlags& flags, int width, int height) {
+  const auto result = LayoutHandover::read(work, flags.input);
+  const LayoutView& layout = result->handover().layout;
+  std::vector<Rgb> colour;
+  for (const auto& c : layout.patch_colour) colour.push_back({c[0], c[1], c[2]});
+  Shape shape = shape_of(layout.refined->mesh.view());
+  if (flags.stage == "patches") shape.face_label = layout.labels->patch_of_face, shape.label_colour = colour;
+  FitOptions fit;
+  fit.width = width, fit.height = height, fit.margin = 0.03 * std::min(width, height);
+  fit.perspective = flags.perspective;
+  const View view = view_of(work, flags, shape_of(layout.mesh));
+  Camera camera = fit_camera(work, shape, view, fit);
+  camera.scale *= flags.zoom;
+  const Real scale = std::min(width, height) / 560.;  // widths of lines are for that size
+  const bool with_lines = flags.lines != "none" && flags.stage != "input";
+  return render(work, shape, with_lines ? arc_lines(layout, flags, scale) : Lines(), camera, flags.samples);
+}
+
+int run_render(const RenderFlags& flags) {
+  const auto [width, height] = size_of(flags.size);
+  RunSettings settings;
+  settings.threads = flags.threads;
+  RunContext context(settings, &interrupt_flag());
+  const Work work = context.work();
+  context.execute([&, w = width, h = height] { write_png(flags.output, draw(work, flags, w, h)); });
+  if (!flags.quiet) fmt::print("written to {}\n", flags.output);
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, int& exit_code) {
+  auto flags = std::make_shared<RenderFlags>();
+  CLI::App* command = app.add_subcommand("render", "draw a result as a picture, without a display");
+  command->add_option("input", flags->input, "folder written by intarsia run")->required();
+  command->add_option("-o,--output", flags->output, "picture: .png")->required();
+  command->add_option("--size", flags->size, "pixels, WIDTHxHEIGHT")->capture_default_str();
+  command->add_option("--stage", flags->stage, "input: the surface; network: with the curves by kind; patches")
+      ->check(CLI::IsMember({"input", "network", "patches"}))
+      ->capture_default_str();
+  auto* view = command->add_option("--view", flags->view, "azimuth and elevation, degrees, z up; default: chosen");
+  view->expected(2)->delimiter(',')->check(CLI::Range(-360.0, 360.0));
+  command
+      ->add_option("--camera", flags->camera,
+                   "direction towards the viewer X,Y,Z, and the vertical X,Y,Z; the key C of the page copies it")
+      ->expected(3, 6)
+      ->delimiter(',')
+      ->excludes(view);
+  command->add_option("--zoom", flags->zoom, "1: the whole object")->check(CLI::Range(0.05, 100.0));
+  command->add_option("--perspective", flags->perspective, "0: parallel")->check(CLI::Range(0.0, 0.49));
+  command->add_option("--lines", flags->lines, "auto, kinds, plain or none")
+      ->check(CLI::IsMember({"auto", "kinds", "plain", "none"}))
+      ->capture_default_str();
+  command->add_option("--line-width", flags->line_width, "times the usual width")->check(CLI::Range(0.1, 10.0));
+  command->add_option("--samples", flags->samples, "per pixel and side")
+      ->check(CLI::Range(1, 8))
+      ->capture_default_str();
+  command->add_option("-t,--threads", flags->threads, "threads; 0 = all allowed processors")
+      ->check(CLI::NonNegativeNumber);
+  command->add_flag("-q,--quiet", flags->quiet, "print nothing but errors");
+  command->callback([flags, &exit_code] {
+    if (flags->camera.size() != 0 && flags->camera.size() != 3 && flags->camera.size() != 6)
+      throw Error(ErrorCode::bad_argument, "--camera takes three numbers or six");
+    exit_code = run_render(*flags);
+  });
+}
+
+}  // namespace intarsia::tools
