@@ -44,6 +44,7 @@ View view_of(const Work& work, const RenderFlags& flags, const Shape& shape) {
   View view;
   view.toward = Vec3(c[0], c[1], c[2]).normalized();
   view.up = c.size() == 6 ? Vec3(c[3], c[4], c[5]).normalized() : best_view(work, shape).up;
+  if (c.size() == 3 && view.toward.cross(view.up).norm() < 1e-6) view.up = Vec3(view.up.y(), view.up.z(), view.up.x());
   if (!(view.toward.cross(view.up).norm() > 1e-6))
     throw Error(ErrorCode::bad_argument, "--camera: the direction and the vertical must differ, and not be zero");
   return view;

@@ -48,3 +48,52 @@ TEST_CASE("run writes what --write names, and convert writes the same from the r
   CHECK(intarsia({"convert", dir / "out", "--write", "features.vtp"}).status == kExitUsage);
   CHECK(intarsia({"convert", dir / "part.ply", "--write", "seg"}).status == kExitUnreadable);
 }
+
+TEST_CASE("view finds the page, render draws without a display, eval adds the deviation to the page") {
+  const test::ProgramFolder dir("view");
+  const auto intarsia = [&](std::vector<std::string> arguments) {
+    return test::run_program(INTARSIA_PROGRAM, arguments, dir);
+  };
+  REQUIRE(intarsia({"make", "cube", "--triangles", "1200", "-o", dir / "cube.ply", "-q"}).status == kExitDone);
+  REQUIRE(intarsia({"run", dir / "cube.ply", "-o", dir / "out", "-q"}).status == kExitDone);
+  const auto page = intarsia({"view", dir / "out", "--print"});
+  CHECK(page.status == kExitDone);
+  REQUIRE(!page.out.empty());
+  CHECK(std::filesystem::equivalent(page.out.substr(0, page.out.size() - 1), dir / "out/view.html"));
+  const std::string before = test::file_text(dir / "out/view.html");
+  CHECK(before.find("\"name\":\"cube.ply\"") != std::string::npos);
+  CHECK(before.find("\"deviation\":") == std::string::npos);
+  REQUIRE(intarsia({"eval", dir / "out", "-q", "--samples", "4000", "--loop-samples", "30"}).status == kExitDone);
+  const std::string after = test::file_text(dir / "out/view.html");
+  CHECK(after.find("\"deviation\":") != std::string::npos);
+  REQUIRE(intarsia({"convert", dir / "out", "--write", "html", "-q"}).status == kExitDone);
+  CHECK(test::file_text(dir / "out/view.html") == after);  // nothing that only run and eval know is lost
+
+  const auto missing = intarsia({"view", dir / ""});
+  CHECK(missing.status == kExitUnreadable);
+  CHECK(missing.err.find("convert") != std::string::npos);
+
+  for (const char* stage : {"input", "network", "patches"}) {
+    CAPTURE(stage);
+    const std::string file = dir / (std::string(stage) + ".png");
+    REQUIRE(intarsia({"render", dir / "out", "-o", file, "--size", "160x120", "--stage", stage, "--camera", "1,2,3",
+                      "--samples", "1"})
+                .status == kExitDone);
+    const std::string png = test::file_text(file);
+    REQUIRE(png.size() > 100);
+    CHECK(png.substr(16, 8) == std::string("\0\0\0\xa0\0\0\0\x78", 8));
+  }
+  CHECK(test::file_text(dir / "input.png") != test::file_text(dir / "network.png"));
+  CHECK(test::file_text(dir / "network.png") != test::file_text(dir / "patches.png"));
+  for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{{"--size", "160"},
+                                                                                     {"--camera", "1,2"},
+                                                                                     {"--camera", "0,0,0"},
+                                                                                     {"--camera", "0,1,0,0,2,0"},
+                                                                                     {"--stage", "x"}}) {
+    std::vector<std::string> arguments = {"render", dir / "out", "-o", dir / "wrong.png"};
+    arguments.insert(arguments.end(), wrong.begin(), wrong.end());
+    CAPTURE(wrong.back());
+    CHECK(intarsia(arguments).status == kExitUsage);
+    CHECK(!std::filesystem::exists(dir / "wrong.png"));
+  }
+}
