@@ -69,6 +69,9 @@ struct LineRows {
   Point point;
 };
 
+template <class Points, class Kind, class Measures, class Point>
+LineRows(std::size_t, Points, Kind, Measures, Point) -> LineRows<Points, Kind, Measures, Point>;  // for clang 14
+
 constexpr auto kNoMeasures = [](std::size_t, PageBytes&) {};
 
 PageBytes feature_bytes(const FeatureLines& lines, const LayoutView& layout, const PageGrid& grid) {
