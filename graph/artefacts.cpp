@@ -82,7 +82,13 @@ std::vector<Warning> warnings_of(const Surface& a) {
     for (const Index id : fault.first) text += " " + std::to_string(id);
     warnings.push_back({std::string("cleaned-") + kernels::name_of(action), text + ")", fault.count, {}});
   }
-  if (a.given.size() > 0)
+  if (a.mended.split_length > 0)
+    warnings.push_back({"uneven-split",
+                        "the triangles are very uneven: long edges were divided inside, " +
+                            std::to_string(a.mesh.face_count()) + " triangles; labels go back to the input's",
+                        1,
+                        {}});
+  if (a.noisy)
     warnings.push_back(
         {"noise-filtered",
          "the mesh is noisy (neighbouring triangles differ by " +

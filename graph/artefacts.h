@@ -41,7 +41,8 @@ namespace intarsia::graph {
 struct Mended {
   std::array<kernels::Fault, kernels::kCleanActions> done;  // by CleanAction
   Index speck_pieces = 0;
-  std::vector<Index> copy;                 // vertices that are further copies of an input vertex, ascending
+  std::vector<Index> copy;                 // vertices that are further copies of an input vertex, or new: ascending
+  Real split_length = 0;                   // longest edge that uneven triangles were divided to, diagonals; 0: none
   std::vector<Index> twin, twin_of;        // triangles that were dropped because they repeat others
   std::vector<Index> welded, welded_into;  // vertices of the input that became others
 };
@@ -49,14 +50,17 @@ struct Mended {
 // mesh -> surface: the input, mended, in canonical numbers and diagonal 1, with connectivity and normals.
 struct Surface {
   Mesh mesh;
-  kernels::SurfaceOrder order;  // canonical -> input numbers; several vertices of one number where fans were parted
+  kernels::SurfaceOrder order;  // canonical -> input numbers; several vertices of one number where fans were parted,
+                                // several faces where triangles were divided, kNone for vertices between
   Mended mended;
+  Index input_triangles = 0;
   kernels::BoxTransform box;
   Vec3Array face_normal;  // unit, 0 for faces without area
   Real area = 0;
   Real mean_edge = 0;             // h
   Real detail = 0;                // what is small: h, but not less than 0.004 however fine the sampling
   Real rough = 0;                 // angle between neighbouring triangles, see kernels/denoise/roughness.h
+  bool noisy = false;             // and therefore filtered
   Vec3Array given;                // input positions of the vertices, if the mesh's are filtered; else empty
   bool single_precision = false;  // every input coordinate is a float: flat parts carry its rounding
 };

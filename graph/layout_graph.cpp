@@ -12,6 +12,7 @@ std::uint64_t options_hash(const LayoutOptions& options) {
   Hash hash;
   hash.add(options.mode), hash.add(options.form), hash.add(options.seed), hash.add(options.patches),
       hash.add(options.clean.strict);
+  hash.add(options.min_feature.value), hash.add(options.min_feature.unit);
   visit_options(options, [&](const char* name, const auto& value, const char*, auto, auto) {
     hash.add(std::string_view(name));
     hash.add(static_cast<Real>(value));

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 
+#include "engine/base/length.h"
 #include "kernels/cells/cell_complex.h"
 #include "kernels/cells/group.h"
 #include "kernels/cells/swap_cells.h"
 #include "kernels/curvature/compute_curvature.h"
 #include "kernels/curves/connect_features.h"
 #include "kernels/denoise/denoise.h"
+#include "kernels/denoise/remove_details.h"
 #include "kernels/layout/check_layout.h"
 #include "kernels/layout/cross_edges.h"
 #include "kernels/layout/smooth_boundaries.h"
@@ -21,6 +23,7 @@
 #include "kernels/ridges/trace_ridges.h"
 #include "kernels/scale/compute_scale.h"
 #include "kernels/surface/clean_soup.h"
+#include "kernels/surface/split_long_edges.h"
 
 namespace intarsia::graph {
 
@@ -62,8 +65,12 @@ struct LayoutOptions {
   std::uint64_t seed = 0;  // paper mode: random seeds of the subdivision
   Index patches = 0;       // wanted number of patches; 0 = automatic
   kernels::CleanOptions clean;
+  bool split_uneven = true;
+  kernels::SplitEdgesOptions split_edges;
   bool filter_noise = true;
   kernels::DenoiseOptions denoise;
+  Length min_feature;  // smaller details are removed before features are looked for; 0 = none
+  kernels::DetailOptions details;
   bool barrier = true;  // fits do not cross sharp edges
   kernels::SharpOptions sharp;
   kernels::ScaleOptions scale;

@@ -12,6 +12,10 @@ void visit_options(Options& o, V&& v) {
   v("clean.weld", o.clean.weld_distance, "border vertices nearer than this are joined, diagonals; 0 = none", 0.0, 0.01);
   v("clean.specks", o.clean.speck_area, "pieces below this share of the area are left out; 0 = none", 0.0, 0.5);
   v("clean.outward", o.clean.turn_outward, "turn closed pieces that face inwards", 0, 1);
+  v("uneven.split", o.split_uneven, "divide long edges inside where triangles are very uneven (CAD exports)", 0, 1);
+  v("uneven.variation", o.split_edges.uneven, "standard deviation / mean of edge lengths of uneven triangles", 0.0,
+    100.0);
+  v("uneven.length", o.split_edges.length, "longest edge after dividing, diagonals", 1e-4, 1.0);
   v("noise.filter", o.filter_noise, "look for features on a filtered copy of a noisy mesh", 0, 1);
   v("noise.least", o.denoise.least, "roughness of a noisy mesh: angle between neighbouring triangles, radians", 0.0,
     3.2);

@@ -23,6 +23,17 @@ void add_common_flags(CLI::App& app, CommonFlags& flags) {
   app.add_option("--max-memory", flags.max_memory,
                  "refuse at once what would need more memory, by forecast: bytes, or with K M G (of 1024)")
       ->transform(CLI::AsSizeValue(false));
+  app.add_option_function<std::string>(
+         "--min-feature", [&flags](const std::string& text) { flags.min_feature = parse_length(text); },
+         "details below this size get no patches: 1.5 (model units), 2% (of the diagonal), 4e (mean edges)")
+      ->check([](const std::string& text) -> std::string {
+        try {
+          parse_length(text);
+        } catch (const Error& e) {
+          return e.what();
+        }
+        return {};
+      });
   app.add_flag("--strict", flags.strict, "refuse a mesh that is no oriented 2-manifold instead of mending it");
   app.add_option("--report", flags.report, "write the report to this file too");
   app.add_option("--trace", flags.trace, "write a Chrome trace of the stages to this file");
@@ -50,7 +61,7 @@ void OptionFlags::add_to(CLI::App& app) {
 graph::LayoutOptions OptionFlags::options(const CommonFlags& common) const {
   graph::LayoutOptions options = common.mode == "paper" ? graph::paper_options(common.seed) : graph::robust_options();
   options.seed = common.seed;
-  options.clean.strict = common.strict;
+  options.clean.strict = common.strict, options.min_feature = common.min_feature;
   if (!common.subdivide.empty())
     options.form = common.subdivide == "faithful"  ? graph::SubdivideForm::faithful
                    : common.subdivide == "quality" ? graph::SubdivideForm::quality

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json_fwd.hpp>
 
+#include "engine/base/length.h"
 #include "graph/options.h"
 
 namespace intarsia::tools {
@@ -16,6 +17,7 @@ struct CommonFlags {
   int threads = 0;
   std::uint64_t max_memory = 0;  // bytes; 0 = no limit
   std::uint64_t seed = 0;
+  Length min_feature;
   bool strict = false;
   bool quiet = false;
 };

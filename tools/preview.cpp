@@ -20,6 +20,14 @@ Panel panel(std::string title, std::string caption, const Shape& shape, Lines li
   return p;
 }
 
+// As it was given, also where features were looked for on a filtered copy.
+Panel input_panel(const graph::Surface& surface) {
+  MeshView mesh = surface.mesh;
+  const Vec3View given = surface.given;
+  if (given.size() > 0) mesh.x = given.x, mesh.y = given.y, mesh.z = given.z;
+  return panel("input", counted(surface.input_triangles, "triangle", "triangles"), shape_of(mesh));
+}
+
 Panel layout_panel(const graph::Layout& layout, std::span<const Rgb> colour) {
   const RefinedMesh& refined = layout.refined;
   Shape patched = shape_of(refined.mesh.view());
@@ -34,7 +42,7 @@ Panel layout_panel(const graph::Layout& layout, std::span<const Rgb> colour) {
 Strip preview_strip(const PreviewInput& in) {
   const MeshView mesh = in.surface.mesh;
   Strip strip;
-  strip.add(panel("input", counted(mesh.face_count(), "triangle", "triangles"), shape_of(mesh)));
+  strip.add(input_panel(in.surface));
 
   Lines raw = lines_of(mesh, in.ridges.curves.net);
   append(raw, lines_of(mesh, in.valleys.curves.net));
@@ -54,7 +62,7 @@ Strip preview_strip(const PreviewInput& in) {
 Strip baseline_strip(const BaselinePreviewInput& in) {
   const MeshView mesh = in.surface.mesh;
   Strip strip;
-  strip.add(panel("input", counted(mesh.face_count(), "triangle", "triangles"), shape_of(mesh)));
+  strip.add(input_panel(in.surface));
   Shape labelled = shape_of(mesh);
   labelled.face_label = in.patches.labels.patch_of_face;
   labelled.label_colour = in.patch_colour;

@@ -20,6 +20,7 @@ Handover handover_of(const Work& work, const Soup& soup, const graph::Surface& s
   LayoutView& parts = handover.layout;
   parts.soup = &soup;
   parts.vertex_order = surface.order.vertex, parts.face_order = surface.order.face;
+  parts.divided = surface.mended.split_length > 0;
   parts.copies = surface.mended.copy, parts.twin = surface.mended.twin, parts.twin_of = surface.mended.twin_of;
   parts.centre = surface.box.centre, parts.diagonal = surface.box.diagonal;
   parts.refined = &layout.refined, parts.labels = &layout.labels, parts.graph = &layout.graph;

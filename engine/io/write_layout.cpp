@@ -1,9 +1,12 @@
 #include "engine/io/write_layout.h"
 
+#include <compare>
+
 #include "engine/io/write_ply.h"
 #include "engine/parallel/for_each.h"
 #include "engine/parallel/scan.h"
 #include "engine/parallel/single_precision.h"
+#include "engine/parallel/sort.h"
 
 namespace intarsia {
 namespace {
@@ -16,14 +19,46 @@ void add_positions(Element& element, bool single, const Soup& soup) {
     element.template xyz<double>(soup.x, soup.y, soup.z);
 }
 
+// Where several canonical faces are one soup triangle.
+void label_by_area(const Work& work, const LayoutView& layout, std::vector<Index>& patch) {
+  struct Share {
+    Index triangle, patch, face;
+    auto operator<=>(const Share&) const = default;
+  };
+  std::vector<Share> share(layout.face_order.size());
+  for_each(work, Cost::light, share.size(), [&](std::size_t f) {
+    share[f] = {layout.face_order[f], layout.face_patch[f], static_cast<Index>(f)};
+  });
+  sort_total(work, share.begin(), share.end());
+  Real best = 0, own = 0;
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    const Share& s = share[i];
+    const bool same_triangle = i > 0 && share[i - 1].triangle == s.triangle;
+    if (!same_triangle) best = -1;
+    if (!same_triangle || share[i - 1].patch != s.patch) own = 0;
+    const auto [a, b, c] = layout.mesh.face(s.face);
+    const Vec3 p = layout.mesh.point(a);
+    own += (layout.mesh.point(b) - p).cross(layout.mesh.point(c) - p).norm();
+    if (own > best) best = own, patch[s.triangle] = s.patch;
+  }
+}
+
 }  // namespace
+
+std::vector<Index> input_patches(const Work& work, const LayoutView& layout) {
+  std::vector<Index> patch(layout.soup->face_count(), kNone);
+  if (layout.divided)
+    label_by_area(work, layout, patch);
+  else
+    for_each(work, Cost::light, layout.face_order.size(),
+             [&](std::size_t f) { patch[layout.face_order[f]] = layout.face_patch[f]; });
+  for (std::size_t i = 0; i < layout.twin.size(); ++i) patch[layout.twin[i]] = patch[layout.twin_of[i]];
+  return patch;
+}
 
 void write_patches_ply(const Work& work, const std::filesystem::path& path, const LayoutView& layout) {
   const Soup& soup = *layout.soup;
-  std::vector<Index> patch(soup.face_count(), kNone);
-  for_each(work, Cost::light, layout.face_order.size(),
-           [&](std::size_t f) { patch[layout.face_order[f]] = layout.face_patch[f]; });
-  for (std::size_t i = 0; i < layout.twin.size(); ++i) patch[layout.twin[i]] = patch[layout.twin_of[i]];
+  const std::vector<Index> patch = input_patches(work, layout);
   PlyFile ply;
   ply.comment("intarsia patches: faces in the order of the input, int patch per face");
   auto& vertex = ply.element("vertex", soup.vertex_count());

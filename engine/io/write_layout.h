@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <vector>
 
 #include "engine/data/curve_network.h"
 #include "engine/data/layout_graph.h"
@@ -18,10 +19,11 @@ namespace intarsia {
 // Views of all that the files are made from. Canonical numbers are those of the mesh the method ran on.
 struct LayoutView {
   const Soup* soup = nullptr;           // as read
-  std::span<const Index> vertex_order;  // canonical vertex -> soup vertex
+  std::span<const Index> vertex_order;  // canonical vertex -> soup vertex, kNone where it is none
   std::span<const Index> face_order;    // canonical face -> soup triangle
-  std::span<const Index> copies;        // canonical vertices that are further copies of a soup vertex, ascending
-  std::span<const Index> twin;          // soup triangles that repeat twin_of[i]: labelled as those
+  std::span<const Index> copies;  // canonical vertices that are further copies of a soup vertex, or none: ascending
+  bool divided = false;                 // several canonical faces may be one soup triangle
+  std::span<const Index> twin;    // soup triangles that repeat twin_of[i]: labelled as those
   std::span<const Index> twin_of;
   Vec3 centre = Vec3::Zero();  // input position = centre + diagonal * normalised position
   Real diagonal = 1;
@@ -34,6 +36,10 @@ struct LayoutView {
   std::span<const Index> face_patch;  // canonical face -> patch with most of it
   std::span<const std::array<std::uint8_t, 3>> patch_colour;
 };
+
+// Patch of every soup triangle: the one with most of its area, ties to the smaller id; kNone where cleaning left it
+// out.
+std::vector<Index> input_patches(const Work& work, const LayoutView& layout);
 
 // Errors of all: write_failed naming the file, numeric, cancelled.
 
@@ -71,7 +77,7 @@ inline Index layout_vertex(const LayoutView& l, Index v) {
 
 // Position of a refined vertex in the input's units: the input's own bits where it is an input vertex.
 inline Vec3 layout_point(const LayoutView& l, Index v) {
-  if (v < l.vertex_order.size()) {
+  if (v < l.vertex_order.size() && l.vertex_order[v] != kNone) {
     const Index s = l.vertex_order[v];
     return {l.soup->x[s], l.soup->y[s], l.soup->z[s]};
   }

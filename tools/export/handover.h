@@ -11,9 +11,9 @@
 namespace intarsia::tools {
 
 struct Handover {
-  LayoutView layout;                       // edge_kind and on_network of its refined mesh may be empty
-  std::vector<Index> input_patch;          // triangle of the input -> patch, as in patches.ply
-  bool single = false;                     // the input's coordinates are all floats
+  LayoutView layout;               // edge_kind and on_network of its refined mesh may be empty
+  std::vector<Index> input_patch;  // triangle of the input -> patch, as in patches.ply; kNone (-1 in files): left out
+  bool single = false;             // the input's coordinates are all floats
   const FeatureLines* features = nullptr;  // none where only a result folder is known
   std::string name;                        // of the input, for titles
 

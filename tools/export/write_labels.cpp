@@ -9,7 +9,7 @@ namespace intarsia::tools {
 
 void write_labels_seg(const std::filesystem::path& path, const Handover& handover) {
   FileWriter out(path);
-  for (const Index p : handover.input_patch) out.text("{}\n", p);
+  for (const Index p : handover.input_patch) out.text("{}\n", static_cast<std::int32_t>(p));  // kNone: -1
   out.commit();
 }
 
@@ -49,7 +49,8 @@ std::vector<PatchRow> patch_rows(const Handover& handover) {
   const LayoutGraph& graph = *layout.graph;
   const MeshView mesh = layout.refined->mesh;
   std::vector<PatchRow> rows(graph.patch_count());
-  for (const Index p : handover.input_patch) ++rows[p].triangles;
+  for (const Index p : handover.input_patch)
+    if (p != kNone) ++rows[p].triangles;
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const auto [i, j, k] = mesh.face(f);
     const Vec3 a = mesh.point(i), b = mesh.point(j), c = mesh.point(k), n = (b - a).cross(c - a) / 2;

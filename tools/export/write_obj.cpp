@@ -1,5 +1,7 @@
 #include "tools/export/write_obj.h"
 
+#include <algorithm>
+
 #include "engine/data/patch_labels.h"
 #include "tools/export/file_writer.h"
 #include "tools/picture/lines.h"
@@ -23,7 +25,9 @@ void put_material(FileWriter& out, const std::string& name, int r, int g, int b)
 
 void write_patches_obj(const Work& work, const std::filesystem::path& path, const Handover& handover) {
   const Soup& soup = *handover.layout.soup;
-  PatchLabels labels{handover.input_patch, handover.patch_count()};
+  const Index patches = handover.patch_count();
+  PatchLabels labels{handover.input_patch, patches + 1};  // the last row: triangles that were left out
+  for (Index& p : labels.patch_of_face) p = std::min(p, patches);
   const Csr faces = faces_of_patches(labels);
   FileWriter out(path);
   out.text("# intarsia patches: the input's triangles, a group and a material for each patch\nmtllib patches.mtl\n");
@@ -33,7 +37,10 @@ void write_patches_obj(const Work& work, const std::filesystem::path& path, cons
   }
   for (Index p = 0; p < faces.rows(); ++p) {
     if (faces.row(p).empty()) continue;
-    out.text("g patch_{0}\nusemtl patch_{0}\n", p);
+    if (p < patches)
+      out.text("g patch_{0}\nusemtl patch_{0}\n", p);
+    else
+      out.text("g left_out\nusemtl left_out\n");
     for (const Index f : faces.row(p))
       out.text("f {} {} {}\n", soup.corner[3 * f] + 1, soup.corner[3 * f + 1] + 1, soup.corner[3 * f + 2] + 1);
     work.check();
@@ -48,6 +55,7 @@ void write_patches_mtl(const std::filesystem::path& path, const Handover& handov
     const auto& c = handover.layout.patch_colour[p];
     put_material(out, fmt::format("patch_{}", p), c[0], c[1], c[2]);
   }
+  put_material(out, "left_out", 128, 128, 128);
   for (int k = 0; k < 6; ++k) {
     const Rgb c = style_of(static_cast<CurveKind>(k)).colour;
     put_material(out, name_of(static_cast<CurveKind>(k)), c.r, c.g, c.b);

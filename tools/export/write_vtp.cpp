@@ -13,7 +13,9 @@ void write_patches_vtp(const std::filesystem::path& path, const Handover& handov
   else
     vtp.points<double>(soup.vertex_count(), place);
   vtp.triangles(soup.face_count(), [&](std::size_t c) { return soup.corner[c]; });
-  vtp.cell_array<std::int32_t>("patch_id", [&](std::size_t f) { return handover.input_patch[f]; });
+  vtp.cell_array<std::int32_t>("patch_id", [&](std::size_t f) {
+    return static_cast<std::int32_t>(handover.input_patch[f]);  // kNone: -1
+  });
   vtp.write(path);
 }
 

@@ -1,0 +1,36 @@
+// Makes the long thin triangles of CAD tessellations into short ones, without moving the surface: longest edges are
+// halved until none is longer than wanted, neighbours first where theirs are longer.
+// Source: Rivara 1997, "New longest-edge algorithms for the refinement and/or improvement of unstructured
+// triangulations" (longest-edge propagation paths).
+#pragma once
+
+#include <vector>
+
+#include "engine/data/mesh.h"
+#include "engine/parallel/work.h"
+
+namespace intarsia::kernels {
+
+struct SplitEdgesOptions {
+  Real uneven = 1;            // coefficient of variation of the edge lengths from which triangles count as uneven
+  Real length = 0.008;        // longest edge wanted, diagonals
+  Real most_triangles = 3e5;  // longer edges are allowed where there would be more
+};
+
+// Standard deviation / mean of the edge lengths (each edge as often as it has triangles).
+Real edge_variation(const Work& work, const Soup& soup);
+
+// The longest edge to divide to, diagonals: as wanted, or longer as far as the triangles would be too many.
+Real split_length(const Work& work, const Soup& soup, Real diagonal, const SplitEdgesOptions& options);
+
+struct SplitSoup {
+  Soup soup;                  // the vertices with their numbers, then the middles of edges
+  std::vector<Index> parent;  // triangle -> triangle it is a part of
+};
+
+// Every triangle with a longer edge is divided into triangles with the same plane and, together, the same area. No
+// vertex in the middle of a neighbour's edge is left. `length` in model units, > 0. Serial, linear in what it makes.
+// Requires: check_soup accepts the soup.
+SplitSoup split_long_edges(const Work& work, const Soup& soup, Real length);
+
+}  // namespace intarsia::kernels
