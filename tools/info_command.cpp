@@ -1,10 +1,13 @@
+#include <algorithm>
 #include <filesystem>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "engine/io/read_mesh.h"
 #include "engine/run/context.h"
+#include "graph/stages.h"
 #include "kernels/surface/diagnose_soup.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
@@ -24,6 +27,34 @@ struct InfoFlags {
   bool json = false;
 };
 
+// What run would make of it: mended, measured; or why it would refuse.
+struct Prospect {
+  std::string refusal;          // empty: run takes it
+  std::vector<Warning> mended;  // what the surface stage would report
+  Real roughness = 0;           // degrees
+  Real variation = 0;           // standard deviation / mean of the edge lengths
+  bool noisy = false;
+  std::uint64_t searched = 0;  // triangles the features would be looked for on
+};
+
+Prospect prospect_of(const Work& work, const Soup& soup) {
+  Prospect p;
+  p.variation = kernels::edge_variation(work, soup);
+  try {
+    const graph::Surface surface = graph::mesh_to_surface(work, soup);
+    p.mended = graph::warnings_of(surface);
+    p.roughness = surface.rough * 180 / std::numbers::pi, p.noisy = surface.noisy;
+    p.searched = surface.mesh.face_count();
+  } catch (const Error& e) {
+    if (e.code() != ErrorCode::rejected) throw;
+    p.refusal = e.what();
+  }
+  return p;
+}
+
+// A guess, said as one: files of these kinds have no units. Millimetres for things between a coin and a car.
+const char* likely_unit(Real diagonal) { return diagonal >= 20 && diagonal < 5000 ? "mm" : "not clear"; }
+
 struct NamedFault {
   const char *key, *text, *element;
   const Fault* fault;
@@ -39,10 +70,12 @@ std::vector<NamedFault> faults_of(const SoupDiagnosis& d) {
           {"several_fans", "vertices where surfaces only touch", "vertex", &d.several_fans}};
 }
 
-json json_of(const std::string& input, const SoupDiagnosis& d, const Forecast& forecast) {
-  const auto list = [](const Vec3& p) { return json{p.x(), p.y(), p.z()}; };
+json json_of(const std::string& input, const SoupDiagnosis& d, const Forecast& forecast, const Prospect& p) {
+  const auto list = [](const Vec3& at) { return json{at.x(), at.y(), at.z()}; };
   json faults = json::object();
   for (const NamedFault& f : faults_of(d)) faults[f.key] = {{"count", f.fault->count}, {"first", f.fault->first}};
+  json mended = json::array();
+  for (const Warning& w : p.mended) mended.push_back({{"code", w.code}, {"count", w.count}, {"message", w.message}});
   return {{"schema", "intarsia-info"},
           {"schema_version", 1},
           {"input", input},
@@ -54,6 +87,13 @@ json json_of(const std::string& input, const SoupDiagnosis& d, const Forecast& f
           {"border_loops", d.border_loops},
           {"genus", d.genus >= 0 ? json(d.genus) : json()},
           {"surface", d.is_surface()},
+          {"refusal", p.refusal.empty() ? json() : json(p.refusal)},
+          {"mended", mended},
+          {"roughness_degrees", p.roughness},
+          {"noisy", p.noisy},
+          {"edge_variation", p.variation},
+          {"searched_triangles", p.searched},
+          {"likely_unit", likely_unit(d.diagonal)},
           {"faults", faults},
           {"box", {{"low", list(d.low)}, {"high", list(d.high)}, {"diagonal", d.diagonal}}},
           {"area", d.area},
@@ -61,7 +101,7 @@ json json_of(const std::string& input, const SoupDiagnosis& d, const Forecast& f
           {"forecast", {{"cpu_seconds", forecast.cpu_seconds}, {"peak_memory_bytes", forecast.peak_memory}}}};
 }
 
-void print(const std::string& input, const SoupDiagnosis& d, const Forecast& forecast) {
+void print(const std::string& input, const SoupDiagnosis& d, const Forecast& forecast, const Prospect& p) {
   fmt::print("{}\n", input);
   fmt::print("  {} vertices, {} triangles, {} component{}", d.vertices, d.triangles, d.components,
              d.components == 1 ? "" : "s");
@@ -70,10 +110,16 @@ void print(const std::string& input, const SoupDiagnosis& d, const Forecast& for
   else
     fmt::print(", closed");
   fmt::print("{}\n", d.genus >= 0 ? fmt::format(", genus {}", d.genus) : "");
-  fmt::print("  box {:g} x {:g} x {:g}, diagonal {:g}, area {:g}\n", d.high.x() - d.low.x(), d.high.y() - d.low.y(),
-             d.high.z() - d.low.z(), d.diagonal, d.area);
+  fmt::print("  box {:g} x {:g} x {:g}, diagonal {:g}, area {:g}; unit, a guess: {}\n", d.high.x() - d.low.x(),
+             d.high.y() - d.low.y(), d.high.z() - d.low.z(), d.diagonal, d.area, likely_unit(d.diagonal));
   fmt::print("  edges {:g} on the mean ({:g} % of the diagonal), {:g} to {:g}\n", d.edge_mean,
              d.diagonal > 0 ? 100 * d.edge_mean / d.diagonal : 0, d.edge_least, d.edge_most);
+  fmt::print("  edge lengths vary by {:.0f} %{}; neighbouring triangles differ by {:.1f} degrees{}\n",
+             100 * p.variation,
+             p.variation < 0.4 ? " (even)"
+             : p.variation < 1 ? " (uneven)"
+                               : " (very uneven)",
+             p.roughness, p.noisy ? " (noisy)" : "");
   bool clean = true;
   for (const NamedFault& f : faults_of(d)) {
     if (f.fault->count == 0) continue;
@@ -82,7 +128,9 @@ void print(const std::string& input, const SoupDiagnosis& d, const Forecast& for
                f.fault->count > f.fault->first.size() ? ", ..." : "");
   }
   if (clean) fmt::print("  no faults\n");
-  fmt::print("  {}\n", d.is_surface() ? "a surface that run takes" : "not an oriented 2-manifold: run refuses it");
+  if (!p.refusal.empty()) fmt::print("  run refuses it: {}\n", p.refusal);
+  for (const Warning& w : p.mended) fmt::print("  run mends: {}\n", w.message);
+  if (p.refusal.empty() && p.mended.empty()) fmt::print("  a surface that run takes as it is\n");
   fmt::print("  forecast of run: {:.1f} CPU seconds, {} of memory at the peak\n", forecast.cpu_seconds,
              memory_text(forecast.peak_memory));
 }
@@ -93,12 +141,18 @@ int info(const InfoFlags& flags) {
   RunContext context(settings, &interrupt_flag());
   SoupDiagnosis d;
   const Work work = context.work();
-  context.execute([&] { d = kernels::diagnose_soup(work, read_mesh(work, flags.input)); });
-  const Forecast forecast = kRunCost(d.vertices, d.triangles);
+  Prospect prospect;
+  context.execute([&] {
+    const Soup soup = read_mesh(work, flags.input);
+    d = kernels::diagnose_soup(work, soup);
+    prospect = prospect_of(work, soup);
+  });
+  const Forecast forecast =
+      kRunCost(std::max(d.vertices, prospect.searched / 2), std::max(d.triangles, prospect.searched));
   if (flags.json)
-    fmt::print("{}\n", json_of(flags.input, d, forecast).dump(1, ' ', false, json::error_handler_t::replace));
+    fmt::print("{}\n", json_of(flags.input, d, forecast, prospect).dump(1, ' ', false, json::error_handler_t::replace));
   else
-    print(flags.input, d, forecast);
+    print(flags.input, d, forecast, prospect);
   return kExitDone;
 }
 

@@ -11,7 +11,7 @@
 namespace intarsia::kernels {
 
 struct DenoiseOptions {
-  Real least = 0.157;  // roughness from which a mesh counts as noisy, radians (9 degrees); clean scans have up to 7
+  Real least = 0.122;  // roughness from which a mesh counts as noisy, radians (7 degrees); clean scans have up to 6.8
   NormalFilterOptions filter;
   int rounds = 1;  // of filtering normals and fitting positions
   int position_steps = 15;

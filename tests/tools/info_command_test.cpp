@@ -44,6 +44,10 @@ TEST_CASE("info counts what a mesh holds and what is wrong with it") {
   CHECK(j["faults"]["non_manifold_edges"]["count"] == 1);
   CHECK(j["surface"] == false);
   CHECK(j["genus"].is_null());
+  CHECK(j["refusal"].is_null());
+  CHECK(j["mended"][0]["code"] == "cleaned-repeated-corners");
+  CHECK(j["mended"][0]["count"] == 1);
+  CHECK(j["noisy"] == false);
   CHECK(j["box"]["high"][0] == 6);
 }
 
