@@ -6,7 +6,7 @@
 namespace intarsia::kernels {
 std::optional<Vec3Array> denoise(const Work& work, const MeshView& mesh, Real rough, Real mean_edge,
                                  const DenoiseOptions& options) {
-  if (!(rough >= options.least)) return {};
+  if (!(rough >= options.least) || mesh.face_count() < options.least_triangles) return {};
   const Csr rings = triangle_rings(work, mesh);
   Vec3Array position = positions_of(work, mesh);
   for (int round = 0; round < options.rounds; ++round) {

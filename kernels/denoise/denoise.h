@@ -12,6 +12,7 @@ namespace intarsia::kernels {
 
 struct DenoiseOptions {
   Real least = 0.122;  // roughness from which a mesh counts as noisy, radians (7 degrees); clean scans have up to 6.8
+  Index least_triangles = 2000;  // coarser meshes are rough without noise
   NormalFilterOptions filter;
   int rounds = 1;  // of filtering normals and fitting positions
   int position_steps = 15;

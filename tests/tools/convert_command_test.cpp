@@ -13,7 +13,7 @@ TEST_CASE("run writes what --write names, and convert writes the same from the r
   const auto intarsia = [&](std::vector<std::string> arguments) {
     return test::run_program(INTARSIA_PROGRAM, arguments, dir);
   };
-  REQUIRE(intarsia({"make", "part", "--triangles", "4000", "-o", dir / "part.ply", "-q"}).status == kExitDone);
+  REQUIRE(intarsia({"make", "head", "--triangles", "12000", "-o", dir / "part.ply", "-q"}).status == kExitDone);
   REQUIRE(intarsia({"run", dir / "part.ply", "-o", dir / "out", "-n", "12", "-q", "--write", "all"}).status ==
           kExitDone);
   for (const std::string& name : export_names()) {
