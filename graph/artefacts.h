@@ -28,7 +28,11 @@
 
 namespace intarsia {
 
+class ArtefactReader;
+class ArtefactWriter;
+
 std::uint64_t hash_of(const Soup& a);
+std::uint64_t exact_hash_of(const Soup& a);
 std::size_t bytes_of(const Soup& a);
 std::size_t items_of(const Soup& a);  // faces
 
@@ -191,5 +195,32 @@ std::size_t items_of(const Network& a);     // patches
 std::size_t items_of(const Patches& a);     // patches
 std::size_t items_of(const Smoothing& a);   // arcs
 std::size_t items_of(const Layout& a);      // patches
+
+// All fields, into checkpoints and back.
+void write_to(ArtefactWriter& to, const Surface& a);
+void write_to(ArtefactWriter& to, const Scale& a);
+void write_to(ArtefactWriter& to, const Sharp& a);
+void write_to(ArtefactWriter& to, const Curvature& a);
+void write_to(ArtefactWriter& to, const Directions& a);
+void write_to(ArtefactWriter& to, const Lines& a);
+void write_to(ArtefactWriter& to, const Ridges& a);
+void write_to(ArtefactWriter& to, const Curves& a);
+void write_to(ArtefactWriter& to, const Network& a);
+void write_to(ArtefactWriter& to, const Patches& a);
+void write_to(ArtefactWriter& to, const Smoothing& a);
+void write_to(ArtefactWriter& to, const Layout& a);
+
+void read_from(ArtefactReader& from, Surface& a);
+void read_from(ArtefactReader& from, Scale& a);
+void read_from(ArtefactReader& from, Sharp& a);
+void read_from(ArtefactReader& from, Curvature& a);
+void read_from(ArtefactReader& from, Directions& a);
+void read_from(ArtefactReader& from, Lines& a);
+void read_from(ArtefactReader& from, Ridges& a);
+void read_from(ArtefactReader& from, Curves& a);
+void read_from(ArtefactReader& from, Network& a);
+void read_from(ArtefactReader& from, Patches& a);
+void read_from(ArtefactReader& from, Smoothing& a);
+void read_from(ArtefactReader& from, Layout& a);
 
 }  // namespace intarsia::graph

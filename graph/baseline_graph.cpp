@@ -1,6 +1,6 @@
 #include "graph/baseline_graph.h"
 
-#include "engine/base/hash.h"
+#include "engine/io/artefact_file.h"
 #include "engine/parallel/for_each.h"
 #include "kernels/baselines/exoskeleton.h"
 #include "kernels/baselines/part_segmentation.h"
@@ -67,8 +67,9 @@ Patches baseline_patches(const Work& work, const Surface& surface, const Network
 
 BaselinePorts add_baseline_stages(Flow& flow, const Port<Soup>& soup, const LayoutOptions& options, Baseline method,
                                   PartsOfSoup parts) {
+  const bool has_parts = static_cast<bool>(parts);
   Hash hash;
-  hash.add(method), hash.add(options.patches);
+  hash.add(method), hash.add(exact_hash(options));
   BaselinePorts p;
   p.features = add_feature_stages(flow, soup, options);
   p.network = add_stage(flow, Stage<Network, Surface>{"network", 1, 0, empty_network, {}, 0.1}, p.features.surface);
@@ -81,8 +82,9 @@ BaselinePorts add_baseline_stages(Flow& flow, const Port<Soup>& soup, const Layo
     }
     return baseline_patches(w, s, n, method, wanted, own);
   };
-  p.patches = add_stage(flow, Stage<Patches, Soup, Surface, Network>{"patches", 1, hash.value(), patches, {}, 4}, soup,
-                        p.features.surface, p.network);
+  Stage<Patches, Soup, Surface, Network> patches_stage{"patches", 1, hash.value(), patches, {}, 4};
+  patches_stage.is_pure = !has_parts;  // those are read from somewhere
+  p.patches = add_stage(flow, std::move(patches_stage), soup, p.features.surface, p.network);
   const Port<Lines> lines =
       add_stage(flow, Stage<Lines, Curvature>{"layout", 1, hash.value(), curvature_to_lines, "lines", 0.01},
                 p.features.curvature);

@@ -70,7 +70,7 @@ class Choice {
     most = most == kNone ? kNone : most + pieces - 1;
     Real low = from, high = from;
     for (Real s : candidates_.component_saliency) high = std::max(high, 1.01 * s);
-    for (int step = 0; step < options_.choice.steps; ++step) {
+    for (int step = 0; step < options_.choice.steps && !work_.is_late(); ++step) {
       const Real middle = std::sqrt(low * high);
       (extend(middle).patches <= most ? high : low) = middle;
     }

@@ -2,26 +2,23 @@
 
 #include <string>
 
-#include "engine/base/hash.h"
+#include "engine/io/artefact_file.h"
 #include "graph/visit_options.h"
 
 namespace intarsia::graph {
 namespace {
 
-std::uint64_t options_hash(const LayoutOptions& options) {
-  Hash hash;
-  hash.add(options.mode), hash.add(options.form), hash.add(options.seed), hash.add(options.patches),
-      hash.add(options.clean.strict);
-  hash.add(options.min_feature.value), hash.add(options.min_feature.unit);
-  visit_options(options, [&](const char* name, const auto& value, const char*, auto, auto) {
-    hash.add(std::string_view(name));
-    hash.add(static_cast<Real>(value));
-  });
-  return hash.value();
+struct Seen {
+  LayoutOptions options;
+  std::uint64_t hash;
+};
+
+Seen seen(StageGroup group, const LayoutOptions& all) {
+  const LayoutOptions options = options_up_to(group, all);
+  return {options, exact_hash(options)};
 }
 
 }  // namespace
-
 void check_options(const LayoutOptions& options) {
   visit_options(options, [](const char* name, const auto& value, const char* help, auto least, auto most) {
     const Real v = static_cast<Real>(value);
@@ -31,18 +28,18 @@ void check_options(const LayoutOptions& options) {
   });
 }
 
-FeaturePorts add_feature_stages(Flow& flow, const Port<Soup>& soup, const LayoutOptions& options) {
-  const std::uint64_t hash = options_hash(options);
+FeaturePorts add_feature_stages(Flow& flow, const Port<Soup>& soup, const LayoutOptions& all_options) {
+  const auto [options, hash] = seen(StageGroup::features, all_options);
   FeaturePorts p;
   const auto surface = [options](const Work& w, const Soup& s) { return mesh_to_surface(w, s, options); };
   p.surface = add_stage(flow, Stage<Surface, Soup>{"surface", 2, hash, surface, {}, 1}, soup);
-  const auto sharp = [options](const Work& w, const Surface& s) { return surface_to_sharp(w, s, options); };
+  const auto sharp = [options = options](const Work& w, const Surface& s) { return surface_to_sharp(w, s, options); };
   p.sharp = add_stage(flow, Stage<Sharp, Surface>{"surface", 1, hash, sharp, "sharp", 0.1}, p.surface);
-  const auto scale = [options](const Work& w, const Surface& s, const Sharp& e) {
+  const auto scale = [options = options](const Work& w, const Surface& s, const Sharp& e) {
     return surface_to_scale(w, s, e, options);
   };
   p.scale = add_stage(flow, Stage<Scale, Surface, Sharp>{"scale", 1, hash, scale, {}, 4}, p.surface, p.sharp);
-  const auto curvature = [options](const Work& w, const Surface& s, const Scale& k, const Sharp& e) {
+  const auto curvature = [options = options](const Work& w, const Surface& s, const Scale& k, const Sharp& e) {
     return scale_to_curvature(w, s, k, e, options);
   };
   p.curvature = add_stage(flow, Stage<Curvature, Surface, Scale, Sharp>{"curvature", 1, hash, curvature, {}, 2},
@@ -50,57 +47,68 @@ FeaturePorts add_feature_stages(Flow& flow, const Port<Soup>& soup, const Layout
   return p;
 }
 
-LayoutPorts add_layout_stages(Flow& flow, const Port<Soup>& soup, const LayoutOptions& options) {
-  const std::uint64_t hash = options_hash(options);
+LayoutPorts add_layout_stages(Flow& flow, const Port<Soup>& soup, const LayoutOptions& all_options) {
   LayoutPorts p;
-  p.features = add_feature_stages(flow, soup, options);
+  p.features = add_feature_stages(flow, soup, all_options);
   const auto& [surface, sharp, scale, curvature] = p.features;
 
-  const auto channel = [options](CurveKind kind) {
+  const Seen for_curves = seen(StageGroup::curves, all_options);
+  const auto channel = [options = for_curves.options](CurveKind kind) {
     return [options, kind](const Work& w, const Surface& s, const Curvature& k, const Sharp& e) {
       return curvature_to_ridges(w, s, k, e, kind, options);
     };
   };
   using RidgeStage = Stage<Ridges, Surface, Curvature, Sharp>;
-  p.ridges = add_stage(flow, RidgeStage{"ridges", 1, hash, channel(CurveKind::ridge), "ridges", 0.2}, surface,
-                       curvature, sharp);
-  p.valleys = add_stage(flow, RidgeStage{"ridges", 1, hash, channel(CurveKind::valley), "valleys", 0.2}, surface,
-                        curvature, sharp);
+  p.ridges = add_stage(flow, RidgeStage{"ridges", 1, for_curves.hash, channel(CurveKind::ridge), "ridges", 0.2},
+                       surface, curvature, sharp);
+  p.valleys = add_stage(flow, RidgeStage{"ridges", 1, for_curves.hash, channel(CurveKind::valley), "valleys", 0.2},
+                        surface, curvature, sharp);
 
-  const auto curves = [options](const Work& w, const Surface& s, const Ridges& r, const Ridges& v, const Sharp& e) {
+  const auto curves = [options = for_curves.options](const Work& w, const Surface& s, const Ridges& r, const Ridges& v,
+                                                     const Sharp& e) {
     return ridges_to_curves(w, s, r, v, e, options);
   };
-  p.curves = add_stage(flow, Stage<Curves, Surface, Ridges, Ridges, Sharp>{"curves", 1, hash, curves, {}, 0.5}, surface,
-                       p.ridges, p.valleys, sharp);
+  p.curves =
+      add_stage(flow, Stage<Curves, Surface, Ridges, Ridges, Sharp>{"curves", 1, for_curves.hash, curves, {}, 0.5},
+                surface, p.ridges, p.valleys, sharp);
 
-  const auto directions = [options](const Work& w, const Surface& s, const Curvature& k) {
+  const Seen for_network = seen(StageGroup::network, all_options);
+  const auto directions = [options = for_network.options](const Work& w, const Surface& s, const Curvature& k) {
     return curvature_to_directions(w, s, k, options);
   };
-  const Port<Directions> guide =
-      add_stage(flow, Stage<Directions, Surface, Curvature>{"network", 1, hash, directions, "directions", 0.1}, surface,
-                curvature);
-  p.lines = add_stage(flow, Stage<Lines, Curvature>{"curvature", 1, hash, curvature_to_lines, "lines", 0.01}, curvature);
-  const auto network = [options](const Work& w, const Surface& s, const Directions& d, const Curves& c) {
+  const Port<Directions> guide = add_stage(
+      flow, Stage<Directions, Surface, Curvature>{"network", 1, for_network.hash, directions, "directions", 0.1},
+      surface, curvature);
+  p.lines = add_stage(flow, Stage<Lines, Curvature>{"curvature", 1, 0, curvature_to_lines, "lines", 0.01}, curvature);
+  const auto network = [options = for_network.options](const Work& w, const Surface& s, const Directions& d,
+                                                       const Curves& c) {
     return curves_to_network(w, s, d, c, options);
   };
-  p.network = add_stage(flow, Stage<Network, Surface, Directions, Curves>{"network", 1, hash, network, {}, 1}, surface,
-                        guide, p.curves);
+  p.network =
+      add_stage(flow, Stage<Network, Surface, Directions, Curves>{"network", 1, for_network.hash, network, {}, 1},
+                surface, guide, p.curves);
 
-  const auto patches = [options](const Work& w, const Surface& s, const Network& n) {
+  const Seen for_patches = seen(StageGroup::patches, all_options);
+  const auto patches = [options = for_patches.options](const Work& w, const Surface& s, const Network& n) {
     return network_to_patches(w, s, n, options);
   };
-  p.patches = add_stage(flow, Stage<Patches, Surface, Network>{"patches", 1, hash, patches, {}, 1}, surface, p.network);
+  p.patches = add_stage(flow, Stage<Patches, Surface, Network>{"patches", 1, for_patches.hash, patches, {}, 1}, surface,
+                        p.network);
 
-  const auto smoothing = [options](const Work& w, const Surface& s, const Lines& l, const Network& n,
-                                   const Patches& q) { return patches_to_smoothing(w, s, l, n, q, options); };
+  const Seen for_layout = seen(StageGroup::layout, all_options);
+  const auto smoothing = [options = for_layout.options](const Work& w, const Surface& s, const Lines& l,
+                                                        const Network& n, const Patches& q) {
+    return patches_to_smoothing(w, s, l, n, q, options);
+  };
   p.smoothing = add_stage(
-      flow, Stage<Smoothing, Surface, Lines, Network, Patches>{"layout", 1, hash, smoothing, "smoothing", 0.3}, surface,
-      p.lines, p.network, p.patches);
-  const auto layout = [options](const Work& w, const Surface& s, const Smoothing& a) {
+      flow,
+      Stage<Smoothing, Surface, Lines, Network, Patches>{"layout", 1, for_layout.hash, smoothing, "smoothing", 0.3},
+      surface, p.lines, p.network, p.patches);
+  const auto layout = [options = for_layout.options](const Work& w, const Surface& s, const Smoothing& a) {
     return smoothing_to_layout(w, s, a, options);
   };
-  p.layout =
-      add_stage(flow, Stage<Layout, Surface, Smoothing>{"layout", 1, hash, layout, {}, 0.7}, surface, p.smoothing);
+  p.layout = add_stage(flow, Stage<Layout, Surface, Smoothing>{"layout", 1, for_layout.hash, layout, {}, 0.7}, surface,
+                       p.smoothing);
   return p;
 }
 

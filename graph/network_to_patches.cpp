@@ -57,7 +57,7 @@ class ErrorDriven {
     }
     refine();
     for (int round = 0; round < options_.refine.rounds && labels_.count == wanted; ++round)
-      if (!reconsider(wanted)) break;
+      if (work_.is_late() || !reconsider(wanted)) break;
     if (options_.patches > 0 && labels_.count != wanted)
       p.warnings.push_back("wanted " + std::to_string(wanted) + " patches, got " + std::to_string(labels_.count) +
                            (reason_.empty() ? "" : ": " + reason_));
@@ -95,7 +95,7 @@ class ErrorDriven {
     labels_ = compact_labels(work_, grouping.spread(labels_.patch_of_face), grouping.alive());
   }
   void refine() {
-    if (options_.refine.swap.sweeps == 0 || labels_.count < 2) return;
+    if (options_.refine.swap.sweeps == 0 || labels_.count < 2 || work_.is_late()) return;
     const EvenCells even = cut_even_cells(work_, s_, labels_, options_.refine.even);
     const CellComplex complex = complex_of(even.cells);
     Grouping grouping(work_, complex, even.patch_of_cell, labels_.count,

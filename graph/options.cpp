@@ -2,6 +2,22 @@
 
 namespace intarsia::graph {
 
+LayoutOptions options_up_to(StageGroup group, LayoutOptions o) {
+  const LayoutOptions unset;
+  if (group < StageGroup::layout) {
+    o.smooth = unset.smooth, o.guard_smoothing = unset.guard_smoothing;
+    o.cross = unset.cross, o.check = unset.check;
+  }
+  if (group < StageGroup::patches) o.refine = unset.refine;
+  if (group < StageGroup::network) {
+    o.form = unset.form, o.seed = unset.seed, o.patches = unset.patches;
+    o.choice = unset.choice, o.snap = unset.snap, o.direction = unset.direction, o.extension = unset.extension;
+    o.subdivide = unset.subdivide;
+  }
+  if (group < StageGroup::curves) o.ridges = unset.ridges, o.curves = unset.curves;
+  return o;
+}
+
 LayoutOptions robust_options() { return {}; }
 
 LayoutOptions paper_options(std::uint64_t seed) {

@@ -90,6 +90,13 @@ struct LayoutOptions {
   kernels::CheckOptions check;
 };
 
+// The stages up to one of these, in order.
+enum class StageGroup : std::uint8_t { features, curves, network, patches, layout };
+
+// What these stages may see of the options: what belongs to later ones is put back to its default, so that neither a
+// stage's output nor its checkpoint can depend on it. New options are seen by all until they are listed there.
+LayoutOptions options_up_to(StageGroup group, LayoutOptions options);
+
 LayoutOptions robust_options();
 // The paper's letter where algorithms.md 18 brackets a value.
 LayoutOptions paper_options(std::uint64_t seed);

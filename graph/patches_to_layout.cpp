@@ -149,7 +149,7 @@ Smoothing patches_to_smoothing(const Work& work, const Surface& surface, const L
   s.graph = trace_boundaries(work, refined, labels.patch_of_face, labels.count);
   s.arcs = smooth_boundaries(work, surface.mesh, refined, s.graph, labels.patch_of_face, lines.lines, options.smooth);
   s.shares = label_shares(work, surface.mesh, refined, labels.patch_of_face);
-  if (options.guard_smoothing)
+  if (options.guard_smoothing && !work.is_late())
     s.error = patch_errors(work, surface, refined, labels, s.graph, options.check.hole_length);
   s.interior = interior_curves(work, network, labels);
   s.refined.origin = refined.origin;
@@ -170,7 +170,7 @@ Layout smoothing_to_layout(const Work& work, const Surface& surface, const Smoot
     layout.labels = std::move(e.labels);
     layout.kept_chains = e.kept_chains;
     layout.graph = trace_boundaries(work, layout.refined, layout.labels.patch_of_face, layout.labels.count);
-    if (!options.guard_smoothing || round + 1 == kRounds) break;
+    if (smoothing.error.empty() || round + 1 == kRounds || work.is_late()) break;
     const std::vector<Index> spoilt = spoilt_patches(
         smoothing.error,
         patch_errors(work, surface, layout.refined, layout.labels, layout.graph, options.check.hole_length));

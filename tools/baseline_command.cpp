@@ -104,6 +104,7 @@ void add_baseline_command(CLI::App& app, int& exit_code) {
   command->add_option("--property", flags->property, "face property of a .ply with parts")->capture_default_str();
   add_picture_flags(*command, flags->picture);
   add_common_flags(*command, flags->common);
+  add_checkpoint_flag(*command, flags->common);
   flags->stages.add_to(*command);
   command->callback([flags, &exit_code] { exit_code = baseline(*flags); });
 }

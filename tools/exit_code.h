@@ -28,6 +28,7 @@ inline int exit_code_of(ErrorCode code) {
       return kExitRejected;
     case ErrorCode::too_large:
     case ErrorCode::no_memory:
+    case ErrorCode::out_of_time:
       return kExitLimit;
     case ErrorCode::write_failed:
       return kExitWrite;

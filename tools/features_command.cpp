@@ -102,6 +102,7 @@ void add_features_command(CLI::App& app, int& exit_code) {
   command->add_option("--vertices", flags->vertices, "vertices to mark there, with A, B, C ...")->delimiter(',');
   add_view_flag(*command, flags->view);
   add_common_flags(*command, flags->common);
+  add_checkpoint_flag(*command, flags->common);
   flags->method.add_to(*command);
   command->callback([flags, &exit_code] { exit_code = features(*flags); });
 }

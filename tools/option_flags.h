@@ -13,12 +13,13 @@ namespace intarsia::tools {
 
 // Settings every command that runs stages has.
 struct CommonFlags {
-  std::string mode = "robust", subdivide, order = "fixed", report, trace;
+  std::string mode = "robust", subdivide, order = "fixed", report, trace, checkpoint;
   int threads = 0;
   std::uint64_t max_memory = 0;  // bytes; 0 = no limit
   std::uint64_t seed = 0;
   Length min_feature;
   bool strict = false;
+  double time_limit = 0;  // seconds; 0 = none
   bool quiet = false;
 };
 

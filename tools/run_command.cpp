@@ -53,6 +53,7 @@ int run(const RunFlags& flags) {
   const auto write = [&](const Work& work, const Soup& s, const graph::Surface& surface, const graph::Ridges& ridges,
                          const graph::Ridges& valleys, const graph::Sharp& sharp, const graph::Smoothing& smoothing,
                          const graph::Layout& layout) {
+    command.stop_clock();
     add_layout_report(summary, s, surface, smoothing.network, layout, options.patches);
     return write_result(work, folder, s, surface, ridges, valleys, sharp, smoothing.network, layout,
                         pictures_of(flags.picture), exports);
@@ -69,6 +70,7 @@ int run(const RunFlags& flags) {
   folder.commit();
   command.write_records(report);
   if (!flags.common.quiet) print_summary(report, folder.target(), exports);
+  if (command.was_shortened()) return kExitLimit;
   return report["valid"].get<bool>() ? kExitDone : kExitDegraded;
 }
 
@@ -84,6 +86,8 @@ void add_run_command(CLI::App& app, int& exit_code) {
   add_picture_flags(*command, flags->picture);
   add_write_flag(*command, flags->write, "csv,npy,html");
   add_common_flags(*command, flags->common);
+  add_checkpoint_flag(*command, flags->common);
+  add_time_limit_flag(*command, flags->common);
   flags->method.add_to(*command);
   command->callback([flags, &exit_code] { exit_code = run(*flags); });
 }

@@ -10,6 +10,7 @@ const char* name_of(ErrorCode code) {
     case ErrorCode::too_large: return "too_large";
     case ErrorCode::numeric: return "numeric";
     case ErrorCode::no_memory: return "no_memory";
+    case ErrorCode::out_of_time: return "out_of_time";
     case ErrorCode::write_failed: return "write_failed";
     case ErrorCode::cancelled: return "cancelled";
     case ErrorCode::internal: return "internal";

@@ -16,6 +16,7 @@ enum class ErrorCode {
   too_large,      // a documented size limit is exceeded
   numeric,        // a computation left its domain
   no_memory,      // allocation failed or was refused in advance
+  out_of_time,    // the time limit came before there was a result
   write_failed,   // an output could not be written
   cancelled,      // the run was asked to stop
   internal,       // a broken promise of the program itself

@@ -94,6 +94,14 @@ struct Vec3Array {
   Vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
   void set(std::size_t i, const Vec3& p) { x[i] = p.x(), y[i] = p.y(), z[i] = p.z(); }
   operator Vec3View() const { return {x, y, z}; }
+  template <class F>
+  void visit_fields(F&& f) {
+    f(x), f(y), f(z);
+  }
+  template <class F>
+  void visit_fields(F&& f) const {
+    f(x), f(y), f(z);
+  }
 };
 
 }  // namespace intarsia

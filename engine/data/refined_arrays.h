@@ -29,6 +29,15 @@ class VertexOrigins {
   }
   Index originals() const { return originals_; }
   const std::vector<SurfacePoint>& added() const { return added_; }
+  // For engine/base/fields.h.
+  template <class F>
+  void visit_fields(F&& f) {
+    f(originals_), f(added_);
+  }
+  template <class F>
+  void visit_fields(F&& f) const {
+    f(originals_), f(added_);
+  }
 
  private:
   Index originals_ = 0;
@@ -60,6 +69,15 @@ class EdgeStrengths {
   }
   const std::vector<Index>& edges() const { return edge_; }  // those set, ascending
   const std::vector<Real>& values() const { return value_; }
+  // For engine/base/fields.h.
+  template <class F>
+  void visit_fields(F&& f) {
+    f(size_), f(edge_), f(value_);
+  }
+  template <class F>
+  void visit_fields(F&& f) const {
+    f(size_), f(edge_), f(value_);
+  }
 
  private:
   std::size_t size_ = 0;

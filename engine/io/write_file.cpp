@@ -65,8 +65,18 @@ void AtomicFile::write(std::string_view bytes) {
   }
 }
 
-void AtomicFile::commit() {
-  if (::fsync(file_) != 0 && errno != EINVAL && errno != EROFS) throw_write_failed(path_, "cannot be written", errno);
+void AtomicFile::write_at(std::uint64_t offset, const char* bytes, std::size_t size) const {
+  while (size > 0) {
+    const ssize_t done = ::pwrite(file_, bytes, size, static_cast<off_t>(offset));
+    if (done < 0 && errno == EINTR) continue;
+    if (done < 0) throw_write_failed(path_, "cannot be written", errno);
+    offset += static_cast<std::uint64_t>(done), bytes += done, size -= static_cast<std::size_t>(done);
+  }
+}
+
+void AtomicFile::commit(bool durable) {
+  if (durable && ::fsync(file_) != 0 && errno != EINVAL && errno != EROFS)
+    throw_write_failed(path_, "cannot be written", errno);
   const int closed = ::close(file_);
   file_ = -1;
   if (closed != 0) throw_write_failed(path_, "cannot be written", errno);

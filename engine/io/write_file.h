@@ -1,6 +1,7 @@
 // Files that are whole or not there: written under another name beside the target, then renamed.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 
@@ -16,8 +17,11 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   void write(std::string_view bytes);
-  // Makes the bytes durable and gives the file its name. An earlier file's permissions are kept.
-  void commit();
+  // At a place of its own, from any thread; not mixed with write().
+  void write_at(std::uint64_t offset, const char* bytes, std::size_t size) const;
+  // Makes the bytes durable, unless a power cut may take them, and gives the file its name. An earlier file's
+  // permissions are kept.
+  void commit(bool durable = true);
 
  private:
   std::filesystem::path path_, temporary_;

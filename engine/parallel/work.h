@@ -30,6 +30,15 @@ class Work {
   void check() const {
     if (cancelled()) throw Error(ErrorCode::cancelled, "the run was cancelled");
   }
+  // Whether the run's time is nearly up. Loops that only improve what is valid already ask before every round, and stop
+  // if so: then the stage's output is no longer a function of its inputs and options.
+  bool is_late() const {
+    if (!late_ || !late_->load(std::memory_order_relaxed)) return false;
+    if (shortened_) shortened_->store(true, std::memory_order_relaxed);
+    return true;
+  }
+  // late: is_late() from when it is set. shortened: set when somebody was told so.
+  void watch(const std::atomic<bool>* late, std::atomic<bool>* shortened) { late_ = late, shortened_ = shortened; }
   void tick(std::uint64_t items) const {
     if (done_) done_->fetch_add(items, std::memory_order_relaxed);
   }
@@ -38,6 +47,8 @@ class Work {
  private:
   const std::atomic<bool>* cancel_ = nullptr;
   const std::atomic<bool>* stop_ = nullptr;
+  const std::atomic<bool>* late_ = nullptr;
+  std::atomic<bool>* shortened_ = nullptr;
   std::atomic<std::uint64_t>* done_ = nullptr;
   Order order_ = Order::fixed;
 };

@@ -33,6 +33,9 @@ class RunContext {
 
   void cancel() { cancel_->store(true, std::memory_order_relaxed); }
   bool cancelled() const { return cancel_->load(std::memory_order_relaxed); }
+  // Tells the stages that the time is nearly up (Work::is_late).
+  void hurry() { late_.store(true, std::memory_order_relaxed); }
+  const std::atomic<bool>& late_flag() const { return late_; }
   // Lock-free, so a signal handler may set it.
   std::atomic<bool>& cancel_flag() { return *cancel_; }
 
@@ -52,7 +55,7 @@ class RunContext {
   static_assert(std::atomic<bool>::is_always_lock_free);
   RunSettings settings_;
   int threads_;
-  std::atomic<bool> own_cancel_{false};
+  std::atomic<bool> own_cancel_{false}, late_{false};
   std::atomic<bool>* cancel_;
   std::vector<ProgressListener*> listeners_;
   CpuMeter cpu_meter_;

@@ -10,6 +10,8 @@
 
 #include <tbb/flow_graph.h>
 
+#include "engine/run/checkpoints.h"
+
 namespace intarsia {
 namespace {
 
@@ -100,11 +102,26 @@ void Flow::fail(Index node, std::exception_ptr error) {
   stop_.store(true, std::memory_order_relaxed);
 }
 
+NodeOutcome Flow::outcome_of(const Work& work, NodeRecord& entry, const std::atomic<bool>& shortened) {
+  const NodeSpec& spec = nodes_[entry.node];
+  if (plan_) entry.restored = plan_->begin(work, entry.node) != CheckpointPlan::Action::compute;
+  if (entry.restored) {
+    spec.release_inputs();
+    return plan_->outcome(entry.node);
+  }
+  NodeOutcome outcome = spec.body(work);
+  entry.shortened = shortened.load(std::memory_order_relaxed);
+  if (plan_) plan_->end(work, entry.node, outcome, !entry.shortened);
+  return outcome;
+}
+
 // Never throws into the flow graph, and never cancels it: that would cut short the parallel loops of other running
 // nodes without telling them. They see stop_ instead.
 void Flow::execute(Index node) {
   const NodeSpec& spec = nodes_[node];
-  const Work work(&context_.cancel_flag(), &progress_.ticks(node), context_.order(), &stop_);
+  Work work(&context_.cancel_flag(), &progress_.ticks(node), context_.order(), &stop_);
+  std::atomic<bool> shortened{false};
+  work.watch(&context_.late_flag(), &shortened);
   if (work.cancelled()) return;
   try {
     constexpr std::uint64_t kLoopsGuess = 4;  // a stage passes over its input a few times
@@ -118,7 +135,7 @@ void Flow::execute(Index node) {
     std::exception_ptr thrown;
     try {
       // While this thread waits in an inner loop it must not pick up another node.
-      tbb::this_task_arena::isolate([&] { outcome = spec.body(work); });
+      tbb::this_task_arena::isolate([&] { outcome = outcome_of(work, entry, shortened); });
     } catch (...) {
       thrown = std::current_exception();
     }
@@ -141,6 +158,7 @@ void Flow::execute(Index node) {
 void Flow::start() {
   if (state_ != State::built) throw Error(ErrorCode::internal, "a flow runs only once");
   state_ = State::started;
+  if (checkpoints_) plan_ = std::make_unique<CheckpointPlan>(*checkpoints_, nodes_, record_);
   record_.set_times(wall_seconds(), 0);
   if (progress_.has_listeners()) graph_->ticker.emplace([this] { progress_.poll(); });
   context_.execute([&] {
@@ -155,6 +173,7 @@ void Flow::wait() {
   context_.execute([&] { graph_->graph.wait_for_all(); });
   state_ = State::waited;
   graph_->ticker.reset();
+  plan_.reset();
   record_.set_times(record_.start(), wall_seconds() - record_.start());
   if (ended_.load() == nodes_.size()) return;
 

@@ -3,31 +3,19 @@
 #pragma once
 
 #include <atomic>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "engine/parallel/work.h"
 #include "engine/run/context.h"
+#include "engine/run/node_spec.h"
 #include "engine/run/record.h"
 
 namespace intarsia {
 
-// What a node tells about its artefact.
-struct NodeOutcome {
-  std::uint64_t items = 0, bytes = 0, hash = 0;
-  std::vector<Warning> warnings;
-};
-
-struct NodeSpec {
-  std::string stage, branch;
-  double weight = 1;
-  std::vector<Index> after;                      // nodes that must have ended
-  std::function<std::uint64_t()> input_items;    // asked when the node starts; a hint for progress
-  std::function<NodeOutcome(const Work&)> body;  // runs once, isolated from other tasks of the arena
-  std::function<void()> drop_artefact;           // called for every node after a failed run
-};
+class CheckpointPlan;
+class Checkpoints;
 
 // Built, run once, asked for its artefacts and its record. Several flows may run at once in one context.
 // Cancel, or an error in one node, stops the others at their next poll; nothing half-made is published.
@@ -40,6 +28,8 @@ class Flow {
 
   // Requires: not started; ids in `after` were returned before. Returns the node's id.
   Index add_node(NodeSpec spec);
+  // Stages are resumed from there and stored there. Requires: not started; `checkpoints` outlives the flow.
+  void use(const Checkpoints& checkpoints) { checkpoints_ = &checkpoints; }
 
   // start() returns at once; wait() returns when every node has ended.
   // Errors of wait: that of the first node in order of declaration that failed, with the stage's name (foreign
@@ -57,12 +47,15 @@ class Flow {
  private:
   struct Graph;  // keeps the flow-graph header out of everybody else's
   void execute(Index node);
+  NodeOutcome outcome_of(const Work& work, NodeRecord& entry, const std::atomic<bool>& shortened);
   void fail(Index node, std::exception_ptr error);
 
   RunContext& context_;
   std::string run_;
   Progress progress_;
   RunRecord record_;
+  const Checkpoints* checkpoints_ = nullptr;
+  std::unique_ptr<CheckpointPlan> plan_;  // while it runs, if there are checkpoints
   std::unique_ptr<Graph> graph_;
   std::vector<NodeSpec> nodes_;
   std::vector<std::exception_ptr> errors_;  // per node; each written by its own node only

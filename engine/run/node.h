@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <typeinfo>
 #include <utility>
 
+#include "engine/base/hash.h"
 #include "engine/run/flow.h"
 #include "engine/run/stage.h"
 
@@ -23,9 +25,16 @@ class Slot {
     if (users_.fetch_sub(1, std::memory_order_acq_rel) == 1) value_.reset();
   }
   void drop() { value_.reset(); }
+  bool is_there() const { return value_ != nullptr; }
+  void keep() {
+    add_user();
+    kept_ = true;
+  }
+  bool is_kept() const { return kept_; }
 
  private:
   std::shared_ptr<const T> value_;
+  bool kept_ = false;  // set before the run
   std::atomic<int> users_{0};
 };
 
@@ -40,7 +49,7 @@ struct Port {
 // always kept. Call before the run.
 template <class T>
 void keep(const Port<T>& port) {
-  port.slot->add_user();
+  port.slot->keep();
 }
 
 // After the run: the artefact of a port that was kept or has no consumers; null after a failed run.
@@ -48,6 +57,16 @@ template <class T>
 std::shared_ptr<const T> fetch(const Port<T>& port) {
   return port.slot->share();
 }
+
+// Artefacts that can be kept from one run to the next offer, found by argument-dependent lookup:
+//   void write_to(ArtefactWriter&, const T&);   every field that anybody reads
+//   void read_from(ArtefactReader&, T&);
+// and those that a flow begins with std::uint64_t exact_hash_of(const T&), of their bits.
+template <class T>
+concept HasCheckpoint = requires(ArtefactWriter& to, ArtefactReader& from, T& out) {
+  write_to(to, std::as_const(out));
+  read_from(from, out);
+};
 
 // A node that runs the stage once all its inputs are there. The output is hashed and measured, shared with the
 // consumers as const, and freed after the last of them. A stage without inputs starts with the run.
@@ -60,7 +79,7 @@ Port<Out> add_stage(Flow& flow, Stage<Out, In...> stage, const std::type_identit
   spec.stage = stage.name, spec.branch = stage.branch, spec.weight = stage.weight;
   spec.after = {inputs.node...};
   spec.input_items = [... in = inputs.slot] {
-    return std::max({std::uint64_t{0}, static_cast<std::uint64_t>(items_of(in->get()))...});
+    return std::max({std::uint64_t{0}, (in->is_there() ? static_cast<std::uint64_t>(items_of(in->get())) : 0)...});
   };
   spec.body = [slot, function = std::move(stage.function), ... in = inputs.slot](const Work& work) {
     Out out = function(work, in->get()...);
@@ -72,6 +91,25 @@ Port<Out> add_stage(Flow& flow, Stage<Out, In...> stage, const std::type_identit
     return outcome;
   };
   spec.drop_artefact = [slot] { slot->drop(); };
+  spec.is_kept = [slot] { return slot->is_kept(); };
+  if constexpr (HasCheckpoint<Out>) {
+    if (stage.is_pure) {
+      Hash recipe;
+      recipe.add(std::string_view(spec.stage)), recipe.add(std::string_view(spec.branch)), recipe.add(stage.revision);
+      recipe.add(stage.options_hash), recipe.add(std::string_view(typeid(Out).name()));
+      recipe.add(flow.context().order());
+      spec.recipe = recipe.value();
+    }
+    spec.release_inputs = [... in = inputs.slot] { (in->release(), ...); };
+    spec.store = [slot](ArtefactWriter& to) { write_to(to, slot->get()); };
+    spec.restore = [slot](ArtefactReader& from) {
+      Out out;
+      read_from(from, out);
+      slot->publish(std::move(out));
+    };
+  } else if constexpr (sizeof...(In) == 0 && requires(const Out& out) { exact_hash_of(out); }) {
+    spec.content = [slot] { return exact_hash_of(slot->get()); };
+  }
   return {slot, flow.add_node(std::move(spec))};
 }
 

@@ -62,6 +62,8 @@ std::vector<StageSummary> RunRecord::stages() const {
     }
     StageSummary& s = out[at];
     s.cpu += node.cpu, s.items += node.items, s.bytes += node.bytes;
+    s.restored = s.restored && node.restored;
+    s.shortened = s.shortened || node.shortened;
     spans[at].push_back({node.start, node.start + node.wall});
     hashes[at].push_back(node.hash);
   }
@@ -100,6 +102,8 @@ nlohmann::json RunRecord::to_json() const {
                     {"items", s.items},
                     {"bytes", s.bytes},
                     {"hash", hex_text(s.hash)}});
+    if (s.restored) list.back()["from_checkpoint"] = true;
+    if (s.shortened) list.back()["shortened"] = true;
   }
   json warned = json::array();
   for (const Warning& w : warnings())

@@ -27,6 +27,8 @@ struct NodeRecord {
   Real start = 0, wall = 0;                      // seconds; start counts from the start of the run
   Real cpu = 0;                                  // seconds of processor time, see CpuMeter
   std::uint64_t items = 0, bytes = 0, hash = 0;  // of the artefact
+  bool restored = false;                         // not computed: from a checkpoint
+  bool shortened = false;                        // it was late (Work::is_late): not all that was asked for
   int thread = 0;                                // place in the arena of the thread that ran the node's own code
 };
 
@@ -36,6 +38,8 @@ struct StageSummary {
   Real wall = 0;  // time in which at least one of its nodes ran
   Real cpu = 0;   // sums over the nodes
   std::uint64_t items = 0, bytes = 0;
+  bool restored = true;    // all of them come from checkpoints
+  bool shortened = false;  // one of them was
   std::uint64_t hash = 0;  // of the single node, or of all hashes in order of declaration
 };
 
@@ -57,8 +61,8 @@ class RunRecord {
   Real wall() const { return wall_; }
 
   // {"seconds", "cpu_seconds", "peak_memory_bytes", "stages": [{"name", "seconds", "cpu_seconds", "items", "bytes",
-  // "hash"}], "warnings": [{"code", "stage", "count", "message"}], and "error" after a failure}; hashes are 16 hex
-  // digits.
+  // "hash", and "from_checkpoint", "shortened" where they hold}], "warnings": [{"code", "stage", "count", "message"}],
+  // and "error" after a failure}; hashes are 16 hex digits.
   nlohmann::json to_json() const;
 
  private:

@@ -23,6 +23,7 @@ struct Stage {
   std::function<Out(const Work&, const In&...)> function;
   std::string branch = {};  // tells stages of one name apart
   double weight = 1;        // expected share of the run, for progress only
+  bool is_pure = true;      // false: the output depends on more than that, and is never kept for another run
 };
 
 }  // namespace intarsia

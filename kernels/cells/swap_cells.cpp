@@ -75,7 +75,7 @@ SwapResult swap_cells(const Work& work, const SwapOptions& options, Grouping& g)
   std::vector<Move> moves;
   std::vector<Index> open, best;
   std::vector<std::uint8_t> busy;
-  while (result.moves < most) {
+  while (result.moves < most && !work.is_late()) {
     moves = list_moves(g, moves);
     open.clear();
     for (Index i = 0; i < moves.size(); ++i)

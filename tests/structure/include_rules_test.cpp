@@ -50,7 +50,7 @@ bool allowed_in_engine(const std::string& from, const std::string& to) {
       {"engine/data", {"engine/base", "engine/data"}},
       {"engine/parallel", {"engine/base", "engine/data", "engine/parallel"}},
       {"engine/space", {"engine/base", "engine/data", "engine/parallel", "engine/space"}},
-      {"engine/run", {"engine/base", "engine/data", "engine/parallel", "engine/run"}},
+      {"engine/run", {"engine/base", "engine/data", "engine/parallel", "engine/io", "engine/run"}},
       {"engine/io", {"engine/base", "engine/data", "engine/parallel", "engine/io"}},
   };
   for (const auto& [folder, allowed] : rules)
