@@ -19,6 +19,7 @@ Seen seen(StageGroup group, const LayoutOptions& all) {
 }
 
 }  // namespace
+
 void check_options(const LayoutOptions& options) {
   visit_options(options, [](const char* name, const auto& value, const char* help, auto least, auto most) {
     const Real v = static_cast<Real>(value);

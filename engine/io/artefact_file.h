@@ -74,6 +74,11 @@ class ArtefactReader {
   Hash sum_;
 };
 
+template <class T>
+concept Growing = requires(T& array) {
+  array.push_back(typename T::value_type());
+};
+
 // Whether an array of such values can be copied as bytes and means the same: no pointers, nothing that owns memory.
 template <class T>
 constexpr bool is_plain() {
@@ -97,10 +102,7 @@ void write_value(To& to, const T& value) {
     to.bytes(&value, sizeof value);
   } else if constexpr (std::is_same_v<T, Vec3>) {
     for (int i = 0; i < 3; ++i) write_value(to, value[i]);
-  } else if constexpr (requires {
-                         typename T::value_type;
-                         value.push_back(typename T::value_type());
-                       }) {
+  } else if constexpr (Growing<T>) {
     using Item = typename T::value_type;
     static_assert(!std::is_same_v<T, std::vector<bool>>);
     write_value(to, std::uint64_t{value.size()});
@@ -126,16 +128,14 @@ std::uint64_t exact_hash(const T& value) {
   return to.hash.value();
 }
 
+// Requires: as write_value had it.
 template <class T>
 void read_value(ArtefactReader& from, T& value) {
   if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
     from.bytes(&value, sizeof value);
   } else if constexpr (std::is_same_v<T, Vec3>) {
     for (int i = 0; i < 3; ++i) read_value(from, value[i]);
-  } else if constexpr (requires {
-                         typename T::value_type;
-                         value.push_back(typename T::value_type());
-                       }) {
+  } else if constexpr (Growing<T>) {
     using Item = typename T::value_type;
     if constexpr (is_plain<Item>()) {
       value.resize(from.count(sizeof(Item)));

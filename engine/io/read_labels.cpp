@@ -144,8 +144,12 @@ std::vector<int> read_seg(const Work& work, const std::filesystem::path& path, s
 
 std::vector<int> read_face_labels(const Work& work, const std::filesystem::path& path, const std::string& property) {
   const FileBytes file(work, path);
-  std::vector<int> label =
-      is_ply(file.view()) ? read_ply_labels(work, path, file.view(), property) : read_seg(work, path, file.view());
+  return read_face_labels(work, path, file.view(), property);
+}
+
+std::vector<int> read_face_labels(const Work& work, const std::filesystem::path& path, std::string_view bytes,
+                                  const std::string& property) {
+  std::vector<int> label = is_ply(bytes) ? read_ply_labels(work, path, bytes, property) : read_seg(work, path, bytes);
   if (label.empty()) throw_bad_file(path, "has no labels", kCureLabels);
   return label;
 }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/types.h"
@@ -16,6 +17,10 @@ namespace intarsia {
 // Ensures: at least one label. Labels may be negative or have gaps.
 // Errors: bad_file naming the file and the line or face; too_large.
 std::vector<int> read_face_labels(const Work& work, const std::filesystem::path& path, const std::string& property);
+
+// The same of bytes in memory; path: what they are called.
+std::vector<int> read_face_labels(const Work& work, const std::filesystem::path& path, std::string_view bytes,
+                                  const std::string& property);
 
 // True if the file is a PLY file whose faces have that integer property.
 bool has_face_property(const Work& work, const std::filesystem::path& path, const std::string& property);

@@ -48,10 +48,14 @@ Soup read(const Work& work, const std::filesystem::path& path, std::string_view 
 }  // namespace
 
 Soup read_mesh(const Work& work, const std::filesystem::path& path) {
+  const FileBytes file(work, path);
+  return read_mesh(work, path, file.view());
+}
+
+Soup read_mesh(const Work& work, const std::filesystem::path& path, std::string_view bytes) {
   try {
-    const FileBytes file(work, path);
-    if (file.view().empty()) throw_bad_file(path, "is empty", kCureExportAgain);
-    Soup soup = read(work, path, file.view());
+    if (bytes.empty()) throw_bad_file(path, "is empty", kCureExportAgain);
+    Soup soup = read(work, path, bytes);
     if (soup.corner.empty())
       throw_bad_file(path, "has " + std::to_string(soup.vertex_count()) + " vertices but no triangles or polygons",
                      "give a surface, not a point cloud or curves");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "engine/data/mesh.h"
 #include "engine/parallel/work.h"
@@ -16,5 +17,7 @@ namespace intarsia {
 // Errors: bad_file naming the file, the element (in the numbering of the file, from 0) and a cure; too_large;
 // no_memory.
 Soup read_mesh(const Work& work, const std::filesystem::path& path);
+// The same of bytes in memory; path: what they are called.
+Soup read_mesh(const Work& work, const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace intarsia
