@@ -1,6 +1,9 @@
 // Picks a command, catches once, returns the exit status.
+#include <csignal>
+#include <cstdio>
 #include <exception>
 #include <new>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -31,6 +34,7 @@ int main(int argc, char** argv) {
   CLI::App app("Intarsia: patch layouts of triangle meshes along their ridges and valleys", "intarsia");
   app.require_subcommand(1);
   app.set_version_flag("--version", "intarsia " INTARSIA_VERSION);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like any other
   int exit_code = kExitDone;
   add_run_command(app, exit_code);
   add_batch_command(app, exit_code);
@@ -54,9 +58,16 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     spdlog::error("out of memory; try a smaller mesh or more memory");
     return kExitLimit;
+  } catch (const std::system_error& e) {
+    spdlog::error("{}", e.what());  // of standard output; all other files have errors of their own
+    return std::ferror(stdout) != 0 ? kExitWrite : kExitInternal;
   } catch (const std::exception& e) {
     spdlog::error("internal error: {}", e.what());
     return kExitInternal;
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    spdlog::error("standard output cannot be written");
+    return kExitWrite;
   }
   return exit_code;
 }

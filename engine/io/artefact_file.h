@@ -94,6 +94,22 @@ constexpr bool is_plain() {
   }
 }
 
+// Whether it also has no padding, whose bytes mean nothing.
+template <class T>
+constexpr bool is_packed() {
+  if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
+    return true;
+  } else if constexpr (is_plain<T>()) {
+    std::size_t size = 0;
+    bool packed = true;
+    T value{};
+    for_each_field(value, [&]<class F>(F&) { size += sizeof(F), packed = packed && is_packed<F>(); });
+    return packed && size == sizeof(T);
+  } else {
+    return false;
+  }
+}
+
 // Any value: numbers, strings, arrays of any kind, and structs of such, field by field (engine/base/fields.h).
 // to: an ArtefactWriter, or anything else that takes bytes(from, size).
 template <class To, class T>
@@ -106,7 +122,7 @@ void write_value(To& to, const T& value) {
     using Item = typename T::value_type;
     static_assert(!std::is_same_v<T, std::vector<bool>>);
     write_value(to, std::uint64_t{value.size()});
-    if constexpr (is_plain<Item>())
+    if constexpr (is_packed<Item>() || (is_plain<Item>() && std::is_same_v<To, ArtefactWriter>))
       to.bytes(value.data(), value.size() * sizeof(Item));
     else
       for (const Item& item : value) write_value(to, item);

@@ -21,6 +21,9 @@ struct PlyTask {
 // Both read every element in order, into `soup` and `faces`; `task` has one entry for each element of the header.
 void read_ply_ascii(const Work& work, const std::filesystem::path& path, const PlyHeader& header,
                     const std::vector<PlyTask>& task, std::string_view body, Soup& soup, FaceCollector& faces);
+// The same as read_ply_ascii, on all threads, for the usual files. False, and nothing done, for all others.
+bool read_ply_lines(const Work& work, const PlyHeader& header, const std::vector<PlyTask>& task, std::string_view body,
+                    Soup& soup, FaceCollector& faces);
 void read_ply_binary(const Work& work, const std::filesystem::path& path, const PlyHeader& header,
                      const std::vector<PlyTask>& task, std::string_view body, Soup& soup, FaceCollector& faces);
 

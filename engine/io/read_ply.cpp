@@ -44,10 +44,10 @@ Soup read_ply(const Work& work, const std::filesystem::path& path, std::string_v
   Soup soup;
   FaceCollector faces(path, vertices->count, soup);
   const std::string_view body = file.substr(header.data_begin);
-  if (header.format == PlyFormat::ascii)
-    read_ply_ascii(work, path, header, task, body, soup, faces);
-  else
+  if (header.format != PlyFormat::ascii)
     read_ply_binary(work, path, header, task, body, soup, faces);
+  else if (!read_ply_lines(work, header, task, body, soup, faces))
+    read_ply_ascii(work, path, header, task, body, soup, faces);
   return soup;
 }
 

@@ -7,6 +7,7 @@
 #include "engine/io/file_error.h"
 #include "engine/io/text_scanner.h"
 #include "engine/io/weld.h"
+#include "engine/parallel/for_each.h"
 #include "engine/parallel/reduce.h"
 
 namespace intarsia {
@@ -65,30 +66,38 @@ Soup read_binary(const Work& work, const std::filesystem::path& path, std::strin
   return soup;
 }
 
+using Point = std::array<Real, 3>;
+
 class AsciiReader {
  public:
-  AsciiReader(const std::filesystem::path& path, std::string_view file) : path_(path), scanner_(file) {}
+  // inside: the text begins inside of a solid.
+  AsciiReader(const std::filesystem::path& path, std::string_view text, bool inside = false)
+      : path_(path), scanner_(text), inside_(inside) {}
 
-  std::vector<std::array<Real, 3>> run(const Work& work) {
-    bool inside = false;  // of a solid; a file may hold several, one after the other
+  bool is_inside() const { return inside_; }
+  // Reads to the end of the text.
+  std::vector<Point> run(const Work& work) {
     for (;;) {
       const std::string word = lower(scanner_.word());
       if (word.empty()) break;
-      if (word == "solid" && !inside) {
-        inside = true;
+      if (word == "solid" && !inside_) {
+        inside_ = true;
         scanner_.line();
-      } else if (word == "endsolid" && inside) {
-        inside = false;
+      } else if (word == "endsolid" && inside_) {
+        inside_ = false;
         scanner_.line();
-      } else if (word == "facet" && inside) {
+      } else if (word == "facet" && inside_) {
         if (triangle_ % 4096 == 0) work.check();
         read_facet();
       } else {
         fail("holds '" + printable(word) + "' where a facet or the end of a solid should be");
       }
     }
-    if (inside) fail("ends without 'endsolid' (cut file)");
     return std::move(point_);
+  }
+  // Errors: bad_file if the text may not end here.
+  void check_end() const {
+    if (inside_) fail("ends without 'endsolid' (cut file)");
   }
 
  private:
@@ -113,7 +122,7 @@ class AsciiReader {
     expect("loop");
     for (int i = 0; i < 3; ++i) {
       expect("vertex");
-      std::array<Real, 3> p{};
+      Point p{};
       for (Real& value : p) {
         const std::string_view word = scanner_.word();
         if (!parse_real(word, value))
@@ -129,9 +138,55 @@ class AsciiReader {
 
   const std::filesystem::path& path_;
   TextScanner scanner_;
-  std::vector<std::array<Real, 3>> point_;
+  bool inside_;  // of a solid; a file may hold several, one after the other
+  std::vector<Point> point_;
   std::uint64_t triangle_ = 0;
 };
+
+// Behind a line that holds nothing but 'endfacet', at or after `from`; the end of the text if there is none.
+std::size_t behind_facet(std::string_view text, std::size_t from) {
+  constexpr std::string_view kWord = "endfacet";
+  for (std::size_t at = text.find(kWord, from); at != std::string_view::npos; at = text.find(kWord, at + 1)) {
+    std::size_t before = at, end = at + kWord.size();
+    while (before > 0 && (text[before - 1] == ' ' || text[before - 1] == '\t')) --before;
+    if (end < text.size() && text[end] == '\r') ++end;
+    if (before > 0 && text[before - 1] == '\n' && end < text.size() && text[end] == '\n') return end;
+  }
+  return text.size();
+}
+
+// Reads the text in pieces, side by side, each as if the one before it ended inside of a solid. Nothing if that does
+// not hold or anything is wrong.
+std::vector<Point> read_pieces(const Work& work, const std::filesystem::path& path, std::string_view file) {
+  constexpr std::size_t kPiece = std::size_t{4} << 20;
+  const std::size_t pieces = file.size() / kPiece;
+  if (pieces < 2) return {};
+  std::vector<std::vector<Point>> part(pieces);
+  std::vector<std::uint8_t> good(pieces, 0);
+  const auto border = [&](std::size_t p) {
+    return p == 0 ? 0 : p == pieces ? file.size() : behind_facet(file, p * kPiece);
+  };
+  for_each(work, Cost::single, pieces, [&](std::size_t p) {
+    const std::size_t begin = border(p), end = std::max(begin, border(p + 1));
+    try {
+      AsciiReader reader(path, file.substr(begin, end - begin), p > 0);
+      part[p] = reader.run(work);
+      good[p] = reader.is_inside() == (p + 1 < pieces);
+    } catch (const Error& e) {
+      if (e.code() != ErrorCode::bad_file) throw;
+    }
+  });
+  if (std::count(good.begin(), good.end(), 1) != static_cast<std::ptrdiff_t>(pieces)) return {};
+  std::vector<std::size_t> offset(pieces + 1, 0);
+  for (std::size_t p = 0; p < pieces; ++p) offset[p + 1] = offset[p] + part[p].size();
+  check_triangle_count(path, offset[pieces] / 3);
+  std::vector<Point> point(offset[pieces]);
+  for_each(work, Cost::single, pieces, [&](std::size_t p) {
+    std::copy(part[p].begin(), part[p].end(), point.begin() + static_cast<std::ptrdiff_t>(offset[p]));
+    part[p] = {};
+  });
+  return point;
+}
 
 }  // namespace
 
@@ -142,7 +197,12 @@ Soup read_stl(const Work& work, const std::filesystem::path& path, std::string_v
   const bool says_solid =
       TextScanner(file.substr(0, 256)).word() == "solid" && file.substr(0, 1024).find('\0') == std::string_view::npos;
   if (sized_as_binary || !says_solid) return read_binary(work, path, file);
-  const auto points = AsciiReader(path, file).run(work);
+  std::vector<Point> points = read_pieces(work, path, file);
+  if (points.empty()) {
+    AsciiReader reader(path, file);
+    points = reader.run(work);
+    reader.check_end();
+  }
   Soup soup;
   weld(
       work, static_cast<Index>(points.size()), [&](Index c) { return points[c]; }, soup);

@@ -80,8 +80,8 @@ void fuzz_surface(std::string_view bytes) {
   const bool is_surface = !refuses([&] { kernels::check_soup(Work{}, soup); });
   graph::Surface surface;
   const bool refused = refuses([&] { surface = graph::mesh_to_surface(Work{}, soup, {}); });
-  kernels::CleanOptions strict;
-  strict.strict = true;
+  graph::LayoutOptions strict;
+  strict.clean.strict = true;
   expect(refuses([&] { graph::mesh_to_surface(Work{}, soup, strict); }) == !is_surface, "strict is not check_soup");
   if (refused) return;
   const Mesh& mesh = surface.mesh;

@@ -148,6 +148,7 @@ TEST_CASE("arrays are copied as bytes only where that means the same") {
   CHECK(is_plain<double>());
   CHECK(is_plain<CurveKind>());
   CHECK(is_plain<SurfacePoint>());
+  CHECK_FALSE(is_packed<SurfacePoint>());
   CHECK_FALSE(is_plain<std::string>());
   CHECK_FALSE(is_plain<VertexOrigins>());
 }
