@@ -30,17 +30,19 @@ void check_options(const LayoutOptions& options) {
 }
 
 FeaturePorts add_feature_stages(Flow& flow, const Port<Soup>& soup, const LayoutOptions& all_options) {
-  const auto [options, hash] = seen(StageGroup::features, all_options);
+  const Seen for_features = seen(StageGroup::features, all_options);
+  const LayoutOptions& options = for_features.options;
+  const std::uint64_t hash = for_features.hash;
   FeaturePorts p;
   const auto surface = [options](const Work& w, const Soup& s) { return mesh_to_surface(w, s, options); };
   p.surface = add_stage(flow, Stage<Surface, Soup>{"surface", 2, hash, surface, {}, 1}, soup);
-  const auto sharp = [options = options](const Work& w, const Surface& s) { return surface_to_sharp(w, s, options); };
+  const auto sharp = [options](const Work& w, const Surface& s) { return surface_to_sharp(w, s, options); };
   p.sharp = add_stage(flow, Stage<Sharp, Surface>{"surface", 1, hash, sharp, "sharp", 0.1}, p.surface);
-  const auto scale = [options = options](const Work& w, const Surface& s, const Sharp& e) {
+  const auto scale = [options](const Work& w, const Surface& s, const Sharp& e) {
     return surface_to_scale(w, s, e, options);
   };
   p.scale = add_stage(flow, Stage<Scale, Surface, Sharp>{"scale", 1, hash, scale, {}, 4}, p.surface, p.sharp);
-  const auto curvature = [options = options](const Work& w, const Surface& s, const Scale& k, const Sharp& e) {
+  const auto curvature = [options](const Work& w, const Surface& s, const Scale& k, const Sharp& e) {
     return scale_to_curvature(w, s, k, e, options);
   };
   p.curvature = add_stage(flow, Stage<Curvature, Surface, Scale, Sharp>{"curvature", 1, hash, curvature, {}, 2},

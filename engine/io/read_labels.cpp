@@ -166,7 +166,8 @@ bool has_face_property(const Work& work, const std::filesystem::path& path, cons
 
 std::vector<int> labels_of_triangles(const std::filesystem::path& path, const std::vector<int>& label,
                                      const std::vector<Index>& source_face, Index triangles) {
-  const std::size_t wanted = source_face.empty() ? triangles : std::size_t{source_face.back()} + 1;
+  std::size_t wanted = triangles;
+  if (!source_face.empty()) wanted = std::size_t{source_face.back()} + 1;
   // Faces of the file behind the last triangle may have had fewer than three corners.
   if (label.size() < wanted || (source_face.empty() && label.size() != wanted))
     throw_bad_file(

@@ -119,8 +119,8 @@ NodeOutcome Flow::outcome_of(const Work& work, NodeRecord& entry, const std::ato
 // nodes without telling them. They see stop_ instead.
 void Flow::execute(Index node) {
   const NodeSpec& spec = nodes_[node];
-  Work work(&context_.cancel_flag(), &progress_.ticks(node), context_.order(), &stop_);
   std::atomic<bool> shortened{false};
+  Work work(&context_.cancel_flag(), &progress_.ticks(node), context_.order(), &stop_);
   work.watch(&context_.late_flag(), &shortened);
   if (work.cancelled()) return;
   try {
