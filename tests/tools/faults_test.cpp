@@ -109,7 +109,8 @@ TEST_CASE("a killed run leaves the earlier result, and what it has done") {
   CHECK(finish_program(child) == -SIGKILL);
   CHECK_FALSE(fs::exists(dir / "out"));
   REQUIRE(run(arguments, dir).status == 0);
-  CHECK(restored_stages(dir / "out/report.json")["curvature"]);
+  // Curvature is two nodes, and the kill may come between them.
+  CHECK(restored_stages(dir / "out/report.json")["scale"]);
   REQUIRE(run({"run", dir / "part.ply", "-o", dir / "fresh", "-q"}, dir).status == 0);
   check_same(dir / "fresh", dir / "out");
   CHECK(hidden_entries(dir / "") == 0);
