@@ -14,10 +14,6 @@
 namespace intarsia::graph {
 namespace {
 
-// Diagonals. Lengths of the method that are given in mean edges (how far ends look back, which strips are thin) end
-// here on fine meshes, so that a layout does not depend on how finely the surface was sampled.
-constexpr Real kFinestDetail = 0.004;
-
 // What is still wanted of the cleaning, with the surface's order going back to the input itself.
 void name_by_input(const Work& work, const Soup& input, const kernels::Cleaning& cleaning, Surface& s) {
   Mended& mended = s.mended;
@@ -89,7 +85,7 @@ Surface mesh_to_surface(const Work& work, const Soup& input, const LayoutOptions
   if (cleaning.changed || split) name_by_input(work, input, cleaning, s);
   connect_mesh(work, s.mesh);
   s.mean_edge = kernels::mean_edge_length(work, s.mesh);
-  s.detail = std::max(s.mean_edge, kFinestDetail);
+  s.detail = std::max(s.mean_edge, options.finest_detail);
   kernels::FaceGeometry faces = kernels::face_geometry(work, s.mesh);
   s.rough = kernels::roughness(work, s.mesh, faces.normal);
   s.noisy = options.filter_noise && filter_noise(work, options.denoise, s);

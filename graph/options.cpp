@@ -25,6 +25,9 @@ LayoutOptions paper_options(std::uint64_t seed) {
   o.mode = Mode::paper;
   o.form = SubdivideForm::faithful;
   o.seed = seed;
+  o.finest_detail = 0;
+  o.split_uneven = false;
+  o.filter_noise = false;
   o.barrier = false;
   o.sharp.enabled = false;
   o.scale = kernels::ScaleOptions::paper();

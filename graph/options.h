@@ -65,6 +65,9 @@ struct LayoutOptions {
   std::uint64_t seed = 0;  // paper mode: random seeds of the subdivision
   Index patches = 0;       // wanted number of patches; 0 = automatic
   kernels::CleanOptions clean;
+  // Diagonals. Lengths of the method that are given in mean edges (how far ends look back, which strips are thin) end
+  // here on fine meshes, so that a layout does not depend on how finely the surface was sampled.
+  Real finest_detail = 0.004;
   bool split_uneven = true;
   kernels::SplitEdgesOptions split_edges;
   bool filter_noise = true;

@@ -12,6 +12,7 @@ void visit_options(Options& o, V&& v) {
   v("clean.weld", o.clean.weld_distance, "border vertices nearer than this are joined, diagonals; 0 = none", 0.0, 0.01);
   v("clean.specks", o.clean.speck_area, "pieces below this share of the area are left out; 0 = none", 0.0, 0.5);
   v("clean.outward", o.clean.turn_outward, "turn closed pieces that face inwards", 0, 1);
+  v("network.detail", o.finest_detail, "lengths in mean edges take no shorter edges than this, diagonals", 0.0, 0.1);
   v("uneven.split", o.split_uneven, "divide long edges inside where triangles are very uneven (CAD exports)", 0, 1);
   v("uneven.variation", o.split_edges.uneven, "standard deviation / mean of edge lengths of uneven triangles", 0.0,
     100.0);
