@@ -98,6 +98,7 @@ std::vector<Warning> warnings_of(const Surface& a) {
          {}});
   return warnings;
 }
+std::vector<Warning> warnings_of(const Goal& a) { return as_warnings("tolerance", a.warnings); }
 std::vector<Warning> warnings_of(const Network& a) { return as_warnings("network", a.warnings); }
 std::vector<Warning> warnings_of(const Patches& a) { return as_warnings("patches", a.warnings); }
 std::vector<Warning> warnings_of(const Layout& a) {
@@ -120,6 +121,8 @@ std::uint64_t hash_of(const Directions& a) { return hash_fields(a); }
 std::uint64_t hash_of(const Lines& a) { return hash_fields(a); }
 std::uint64_t hash_of(const Ridges& a) { return hash_fields(a); }
 std::uint64_t hash_of(const Curves& a) { return hash_fields(a); }
+std::uint64_t hash_of(const Guides& a) { return hash_fields(a); }
+std::uint64_t hash_of(const Goal& a) { return hash_fields(a); }
 std::uint64_t hash_of(const Network& a) { return hash_fields(a); }
 std::uint64_t hash_of(const Patches& a) { return hash_fields(a); }
 std::uint64_t hash_of(const Smoothing& a) { return hash_fields(a); }
@@ -133,6 +136,8 @@ std::size_t bytes_of(const Directions& a) { return size_fields(a); }
 std::size_t bytes_of(const Lines& a) { return size_fields(a); }
 std::size_t bytes_of(const Ridges& a) { return size_fields(a); }
 std::size_t bytes_of(const Curves& a) { return size_fields(a); }
+std::size_t bytes_of(const Guides& a) { return size_fields(a); }
+std::size_t bytes_of(const Goal& a) { return size_fields(a); }
 std::size_t bytes_of(const Network& a) { return size_fields(a); }
 std::size_t bytes_of(const Patches& a) { return size_fields(a); }
 std::size_t bytes_of(const Smoothing& a) { return size_fields(a); }
@@ -146,6 +151,8 @@ std::size_t items_of(const Directions& a) { return a.normal.size(); }
 std::size_t items_of(const Lines& a) { return a.lines.vertex_count(); }
 std::size_t items_of(const Ridges& a) { return a.curves.curve_count(); }
 std::size_t items_of(const Curves& a) { return a.curves.curve_count(); }
+std::size_t items_of(const Guides& a) { return a.curves.curve_count(); }
+std::size_t items_of(const Goal& a) { return a.patches; }
 std::size_t items_of(const Network& a) { return a.patches; }
 std::size_t items_of(const Patches& a) { return a.labels.count; }
 std::size_t items_of(const Smoothing& a) { return a.graph.arc_count(); }

@@ -106,6 +106,22 @@ struct Curves {
   FeatureCurves curves;
 };
 
+// surface -> guides: what the user wants kept, on the surface. Empty in most runs.
+struct Guides {
+  CurveNetwork curves;     // kind given: polylines, and the borders of pinned regions
+  std::vector<Index> pin;  // per face: pinned region, kNone where it is in none; empty: none is pinned
+  Index regions = 0;       // pinned, connected or not
+  Real farthest = 0;       // of the polylines' points from the surface, diagonals
+};
+
+// curves -> goal: how many patches are wanted.
+struct Goal {
+  Index patches = 0;  // 0: automatic
+  Real rms = 0;       // deviation of the rebuilt surface at that number, diagonals; 0 where nobody asked
+  Index tries = 0;    // layouts made to find it
+  std::vector<std::string> warnings;
+};
+
 // curves -> network: the features that stand out, embedded, and extended until they close.
 struct Network {
   RefinedMesh refined;    // carries the closed network
@@ -115,6 +131,7 @@ struct Network {
   Real min_saliency = 0;            // threshold that was used
   Index patches = 0;                // after the tiny merge
   Index ends = 0, met = 0, bridged = 0, dead = 0;
+  std::vector<std::uint8_t> locked;  // per refined face: 1 inside pinned regions; empty: there are none
   std::vector<std::string> warnings;
 };
 
@@ -153,6 +170,7 @@ struct Layout {
 };
 
 std::vector<Warning> warnings_of(const Surface& a);  // one for each kind of mending
+std::vector<Warning> warnings_of(const Goal& a);
 std::vector<Warning> warnings_of(const Network& a);
 std::vector<Warning> warnings_of(const Patches& a);
 std::vector<Warning> warnings_of(const Layout& a);
@@ -165,6 +183,8 @@ std::uint64_t hash_of(const Directions& a);
 std::uint64_t hash_of(const Lines& a);
 std::uint64_t hash_of(const Ridges& a);
 std::uint64_t hash_of(const Curves& a);
+std::uint64_t hash_of(const Guides& a);
+std::uint64_t hash_of(const Goal& a);
 std::uint64_t hash_of(const Network& a);
 std::uint64_t hash_of(const Patches& a);
 std::uint64_t hash_of(const Smoothing& a);
@@ -178,6 +198,8 @@ std::size_t bytes_of(const Directions& a);
 std::size_t bytes_of(const Lines& a);
 std::size_t bytes_of(const Ridges& a);
 std::size_t bytes_of(const Curves& a);
+std::size_t bytes_of(const Guides& a);
+std::size_t bytes_of(const Goal& a);
 std::size_t bytes_of(const Network& a);
 std::size_t bytes_of(const Patches& a);
 std::size_t bytes_of(const Smoothing& a);
@@ -191,6 +213,8 @@ std::size_t items_of(const Directions& a);  // vertices
 std::size_t items_of(const Lines& a);       // vertices
 std::size_t items_of(const Ridges& a);      // curves
 std::size_t items_of(const Curves& a);      // curves
+std::size_t items_of(const Guides& a);      // curves
+std::size_t items_of(const Goal& a);        // patches
 std::size_t items_of(const Network& a);     // patches
 std::size_t items_of(const Patches& a);     // patches
 std::size_t items_of(const Smoothing& a);   // arcs
@@ -205,6 +229,8 @@ void write_to(ArtefactWriter& to, const Directions& a);
 void write_to(ArtefactWriter& to, const Lines& a);
 void write_to(ArtefactWriter& to, const Ridges& a);
 void write_to(ArtefactWriter& to, const Curves& a);
+void write_to(ArtefactWriter& to, const Guides& a);
+void write_to(ArtefactWriter& to, const Goal& a);
 void write_to(ArtefactWriter& to, const Network& a);
 void write_to(ArtefactWriter& to, const Patches& a);
 void write_to(ArtefactWriter& to, const Smoothing& a);
@@ -218,6 +244,8 @@ void read_from(ArtefactReader& from, Directions& a);
 void read_from(ArtefactReader& from, Lines& a);
 void read_from(ArtefactReader& from, Ridges& a);
 void read_from(ArtefactReader& from, Curves& a);
+void read_from(ArtefactReader& from, Guides& a);
+void read_from(ArtefactReader& from, Goal& a);
 void read_from(ArtefactReader& from, Network& a);
 void read_from(ArtefactReader& from, Patches& a);
 void read_from(ArtefactReader& from, Smoothing& a);

@@ -93,7 +93,7 @@ Layout layout_by(const Work& work, const Prepared& p, Method method, const Layou
              : method == Method::quality ? SubdivideForm::quality
                                          : SubdivideForm::faithful;
     const Directions directions = curvature_to_directions(work, p.surface, p.curvature, o);
-    const Network network = curves_to_network(work, p.surface, directions, p.curves, o);
+    const Network network = curves_to_network(work, p.surface, directions, p.curves, {}, o);
     const Patches patches = network_to_patches(work, p.surface, network, o);
     return patches_to_layout(work, p.surface, p.curvature, network, patches, o);
   }

@@ -113,9 +113,18 @@ void walk(const Curves& a, V& v) {
 }
 
 template <class V>
+void walk(const Guides& a, V& v) {
+  walk(a.curves, v), v.array(a.pin);
+}
+template <class V>
+void walk(const Goal& a, V& v) {
+  v.scalar(a.patches), v.scalar(a.rms);
+}
+
+template <class V>
 void walk(const Network& a, V& v) {
   walk(a.refined, v), walk(a.features, v), v.array(a.feature_concave), v.array(a.feature_edge),
-      v.scalar(a.min_saliency), v.scalar(a.patches);
+      v.scalar(a.min_saliency), v.scalar(a.patches), v.array(a.locked);
 }
 
 template <class V>

@@ -50,7 +50,26 @@ FeaturePorts add_feature_stages(Flow& flow, const Port<Soup>& soup, const Layout
   return p;
 }
 
-LayoutPorts add_layout_stages(Flow& flow, const Port<Soup>& soup, const LayoutOptions& all_options) {
+namespace {
+
+// With a tolerance it sees every option, since it makes whole layouts; else only the number.
+Port<Goal> add_goal_stage(Flow& flow, const LayoutOptions& options, const Port<Surface>& surface,
+                          const Port<Directions>& guide, const Port<Lines>& lines, const Port<Curves>& curves,
+                          const Port<Guides>& guides) {
+  const bool searches = options.tolerance.value > 0;
+  const auto goal = [options](const Work& w, const Surface& s, const Directions& d, const Lines& l, const Curves& c,
+                              const Guides& g) { return curves_to_goal(w, s, d, l, c, g, options); };
+  return add_stage(
+      flow,
+      Stage<Goal, Surface, Directions, Lines, Curves, Guides>{
+          "network", 1, searches ? exact_hash(options) : options.patches, goal, "goal", searches ? 12.0 : 0.01},
+      surface, guide, lines, curves, guides);
+}
+
+}  // namespace
+
+LayoutPorts add_layout_stages(Flow& flow, const Port<Soup>& soup, const LayoutOptions& all_options,
+                              const GuideSource& source) {
   LayoutPorts p;
   p.features = add_feature_stages(flow, soup, all_options);
   const auto& [surface, sharp, scale, curvature] = p.features;
@@ -83,20 +102,32 @@ LayoutPorts add_layout_stages(Flow& flow, const Port<Soup>& soup, const LayoutOp
       flow, Stage<Directions, Surface, Curvature>{"network", 1, for_network.hash, directions, "directions", 0.1},
       surface, curvature);
   p.lines = add_stage(flow, Stage<Lines, Curvature>{"curvature", 1, 0, curvature_to_lines, "lines", 0.01}, curvature);
-  const auto network = [options = for_network.options](const Work& w, const Surface& s, const Directions& d,
-                                                       const Curves& c) {
-    return curves_to_network(w, s, d, c, options);
+  const auto place = [read = source.read](const Work& w, const Soup& in, const Surface& s) {
+    return read ? surface_to_guides(w, s, read(in)) : Guides{};
   };
-  p.network =
-      add_stage(flow, Stage<Network, Surface, Directions, Curves>{"network", 1, for_network.hash, network, {}, 1},
-                surface, guide, p.curves);
+  const Port<Guides> guides =
+      add_stage(flow, Stage<Guides, Soup, Surface>{"network", 1, source.hash, place, "guides", 0.01}, soup, surface);
+  p.goal = add_goal_stage(flow, all_options, surface, guide, p.lines, p.curves, guides);
+  // The goal stands for the options it was found from.
+  const auto with = [](LayoutOptions options, const Goal& goal) {
+    options.patches = goal.patches, options.tolerance = {};
+    return options;
+  };
+  const auto network = [with, options = for_network.options](const Work& w, const Surface& s, const Directions& d,
+                                                             const Curves& c, const Guides& g, const Goal& goal) {
+    return curves_to_network(w, s, d, c, g, with(options, goal));
+  };
+  using NetworkStage = Stage<Network, Surface, Directions, Curves, Guides, Goal>;
+  p.network = add_stage(flow, NetworkStage{"network", 2, for_network.hash, network, {}, 1}, surface, guide, p.curves,
+                        guides, p.goal);
 
   const Seen for_patches = seen(StageGroup::patches, all_options);
-  const auto patches = [options = for_patches.options](const Work& w, const Surface& s, const Network& n) {
-    return network_to_patches(w, s, n, options);
+  const auto patches = [with, options = for_patches.options](const Work& w, const Surface& s, const Network& n,
+                                                             const Goal& goal) {
+    return network_to_patches(w, s, n, with(options, goal));
   };
-  p.patches = add_stage(flow, Stage<Patches, Surface, Network>{"patches", 1, for_patches.hash, patches, {}, 1}, surface,
-                        p.network);
+  p.patches = add_stage(flow, Stage<Patches, Surface, Network, Goal>{"patches", 2, for_patches.hash, patches, {}, 1},
+                        surface, p.network, p.goal);
 
   const Seen for_layout = seen(StageGroup::layout, all_options);
   const auto smoothing = [options = for_layout.options](const Work& w, const Surface& s, const Lines& l,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/run/node.h"
+#include "graph/guides.h"
 #include "graph/stages.h"
 
 namespace intarsia::graph {
@@ -18,6 +19,7 @@ struct LayoutPorts {
   FeaturePorts features;
   Port<Ridges> ridges, valleys;
   Port<Curves> curves;
+  Port<Goal> goal;
   Port<Network> network;
   Port<Patches> patches;
   Port<Lines> lines;
@@ -29,7 +31,8 @@ struct LayoutPorts {
 FeaturePorts add_feature_stages(Flow& flow, const Port<Soup>& soup, const LayoutOptions& options);
 
 // Adds all stages from surface to layout.
-LayoutPorts add_layout_stages(Flow& flow, const Port<Soup>& soup, const LayoutOptions& options);
+LayoutPorts add_layout_stages(Flow& flow, const Port<Soup>& soup, const LayoutOptions& options,
+                              const GuideSource& guides = {});
 
 // Errors: bad_argument naming the option that is out of range.
 void check_options(const LayoutOptions& options);

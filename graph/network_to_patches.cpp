@@ -34,8 +34,8 @@ class ErrorDriven {
       : work_(work),
         network_(network),
         options_(options),
-        s_(make_patch_surface(work, network.refined, surface.face_normal, surface.detail,
-                              options.subdivide.hole_length)) {}
+        s_(make_patch_surface(work, network.refined, surface.face_normal, surface.detail, options.subdivide.hole_length,
+                              network.locked)) {}
 
   // What the network encloses, without its tiny patches.
   PatchLabels network_labels(Patches& p) const {
@@ -138,7 +138,7 @@ Patches network_to_patches(const Work& work, const Surface& surface, const Netwo
   o.patches = options.patches;
   // Without a number the paper's rules say how many and where; nothing is to be traded against anything.
   if (options.form == SubdivideForm::faithful || (options.form == SubdivideForm::compact && options.patches == 0))
-    return from_subdivision(subdivide(work, network.refined, surface.face_normal, surface.detail, o));
+    return from_subdivision(subdivide(work, network.refined, surface.face_normal, surface.detail, o, network.locked));
   Patches p;
   ErrorDriven driven(work, surface, network, options);
   if (options.patches > 0) {
@@ -146,7 +146,7 @@ Patches network_to_patches(const Work& work, const Surface& surface, const Netwo
     return p;
   }
   // Quality without a number: as many as the rules ask for.
-  const Subdivision s = subdivide(work, network.refined, surface.face_normal, surface.detail, o);
+  const Subdivision s = subdivide(work, network.refined, surface.face_normal, surface.detail, o, network.locked);
   driven.run(p, driven.network_labels(p), s.labels.count, false);
   p.warnings.insert(p.warnings.end(), s.warnings.begin(), s.warnings.end());
   return p;

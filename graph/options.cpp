@@ -10,7 +10,7 @@ LayoutOptions options_up_to(StageGroup group, LayoutOptions o) {
   }
   if (group < StageGroup::patches) o.refine = unset.refine;
   if (group < StageGroup::network) {
-    o.form = unset.form, o.seed = unset.seed, o.patches = unset.patches;
+    o.form = unset.form, o.seed = unset.seed, o.patches = unset.patches, o.tolerance = unset.tolerance;
     o.choice = unset.choice, o.snap = unset.snap, o.direction = unset.direction, o.extension = unset.extension;
     o.subdivide = unset.subdivide;
   }

@@ -64,6 +64,7 @@ struct LayoutOptions {
   SubdivideForm form = SubdivideForm::compact;
   std::uint64_t seed = 0;  // paper mode: random seeds of the subdivision
   Index patches = 0;       // wanted number of patches; 0 = automatic
+  Length tolerance;  // instead of a number: as few patches as rebuild the surface so well (RMS); 0 = not asked for
   kernels::CleanOptions clean;
   // Diagonals. Lengths of the method that are given in mean edges (how far ends look back, which strips are thin) end
   // here on fine meshes, so that a layout does not depend on how finely the surface was sampled.

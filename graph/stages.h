@@ -26,7 +26,11 @@ Ridges curvature_to_ridges(const Work& work, const Surface& surface, const Curva
 Curves ridges_to_curves(const Work& work, const Surface& surface, const Ridges& ridges, const Ridges& valleys,
                         const Sharp& sharp, const LayoutOptions& options);
 Network curves_to_network(const Work& work, const Surface& surface, const Directions& directions, const Curves& curves,
-                          const LayoutOptions& options);
+                          const Guides& guides, const LayoutOptions& options);
+// options.patches, or with a tolerance the smallest number whose layout rebuilds the surface within it: found by making
+// such layouts.
+Goal curves_to_goal(const Work& work, const Surface& surface, const Directions& directions, const Lines& lines,
+                    const Curves& curves, const Guides& guides, const LayoutOptions& options);
 Patches network_to_patches(const Work& work, const Surface& surface, const Network& network,
                            const LayoutOptions& options);
 // The same seeds, merging and border refinement from any patches, for comparisons: from `start` to options.patches.

@@ -18,6 +18,8 @@ void write_to(ArtefactWriter& to, const Directions& a) { write_value(to, a); }
 void write_to(ArtefactWriter& to, const Lines& a) { write_value(to, a); }
 void write_to(ArtefactWriter& to, const Ridges& a) { write_value(to, a); }
 void write_to(ArtefactWriter& to, const Curves& a) { write_value(to, a); }
+void write_to(ArtefactWriter& to, const Guides& a) { write_value(to, a); }
+void write_to(ArtefactWriter& to, const Goal& a) { write_value(to, a); }
 void write_to(ArtefactWriter& to, const Network& a) { write_value(to, a); }
 void write_to(ArtefactWriter& to, const Patches& a) { write_value(to, a); }
 void write_to(ArtefactWriter& to, const Smoothing& a) { write_value(to, a); }
@@ -31,6 +33,8 @@ void read_from(ArtefactReader& from, Directions& a) { read_value(from, a); }
 void read_from(ArtefactReader& from, Lines& a) { read_value(from, a); }
 void read_from(ArtefactReader& from, Ridges& a) { read_value(from, a); }
 void read_from(ArtefactReader& from, Curves& a) { read_value(from, a); }
+void read_from(ArtefactReader& from, Guides& a) { read_value(from, a); }
+void read_from(ArtefactReader& from, Goal& a) { read_value(from, a); }
 void read_from(ArtefactReader& from, Network& a) { read_value(from, a); }
 void read_from(ArtefactReader& from, Patches& a) { read_value(from, a); }
 void read_from(ArtefactReader& from, Smoothing& a) { read_value(from, a); }

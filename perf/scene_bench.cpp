@@ -28,7 +28,7 @@ BenchScene make_scene() {
   s.valleys = graph::curvature_to_ridges(work, s.surface, s.curvature, s.sharp, CurveKind::valley, s.options);
   s.curves = graph::ridges_to_curves(work, s.surface, s.ridges, s.valleys, s.sharp, s.options);
   s.directions = graph::curvature_to_directions(work, s.surface, s.curvature, s.options);
-  s.network = graph::curves_to_network(work, s.surface, s.directions, s.curves, s.options);
+  s.network = graph::curves_to_network(work, s.surface, s.directions, s.curves, {}, s.options);
   s.patches = graph::network_to_patches(work, s.surface, s.network, s.options);
   return s;
 }

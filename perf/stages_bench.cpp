@@ -71,7 +71,7 @@ void direction_field(benchmark::State& state) {
 void network(benchmark::State& state) {
   const BenchScene& s = bench_scene();
   measure(state, s.faces(),
-          [&] { return graph::curves_to_network(Work(), s.surface, s.directions, s.curves, s.options); });
+          [&] { return graph::curves_to_network(Work(), s.surface, s.directions, s.curves, {}, s.options); });
 }
 void flood(benchmark::State& state) {
   const BenchScene& s = bench_scene();

@@ -9,6 +9,7 @@
 #include "engine/io/write_file.h"
 #include "graph/baseline_graph.h"
 #include "tools/commands.h"
+#include "tools/config_file.h"
 #include "tools/exit_code.h"
 #include "tools/report.h"
 #include "tools/stage_command.h"
@@ -43,9 +44,13 @@ graph::PartsOfSoup parts_reader(const BaselineFlags& flags) {
   };
 }
 
-int baseline(const BaselineFlags& flags) {
+int baseline(const BaselineFlags& flags, const CLI::App& app) {
   graph::LayoutOptions options = flags.stages.options(flags.common);
   options.patches = flags.patches;
+  if (flags.common.print_config) {
+    fmt::print("{}", config_text(app, flags.stages, options));
+    return kExitDone;
+  }
   const graph::Baseline method = kMethods.at(flags.method);
   StageCommand command("baseline", flags.input, flags.common);
   OutputFolder folder(flags.output, result_names());
@@ -106,7 +111,10 @@ void add_baseline_command(CLI::App& app, int& exit_code) {
   add_common_flags(*command, flags->common);
   add_checkpoint_flag(*command, flags->common);
   flags->stages.add_to(*command);
-  command->callback([flags, &exit_code] { exit_code = baseline(*flags); });
+  command->callback([flags, command, &exit_code] {
+    apply_config(*command, flags->common.config);
+    exit_code = baseline(*flags, *command);
+  });
 }
 
 }  // namespace intarsia::tools

@@ -8,6 +8,7 @@
 #include "engine/parallel/for_each.h"
 #include "graph/layout_graph.h"
 #include "tools/commands.h"
+#include "tools/config_file.h"
 #include "tools/exit_code.h"
 #include "tools/features_picture.h"
 #include "tools/picture/png_file.h"
@@ -72,8 +73,12 @@ Written write_fields(const Work& work, const std::filesystem::path& path, const 
   return {1, std::filesystem::file_size(path)};
 }
 
-int features(const FeaturesFlags& flags) {
+int features(const FeaturesFlags& flags, const CLI::App& app) {
   graph::LayoutOptions options = flags.method.options(flags.common);
+  if (flags.common.print_config) {
+    fmt::print("{}", config_text(app, flags.method, options));
+    return kExitDone;
+  }
   options.scale.keep_variation = true;
   StageCommand command("features", flags.input, flags.common);
   const graph::FeaturePorts ports = graph::add_feature_stages(command.flow(), command.soup(), options);
@@ -104,7 +109,10 @@ void add_features_command(CLI::App& app, int& exit_code) {
   add_common_flags(*command, flags->common);
   add_checkpoint_flag(*command, flags->common);
   flags->method.add_to(*command);
-  command->callback([flags, &exit_code] { exit_code = features(*flags); });
+  command->callback([flags, command, &exit_code] {
+    apply_config(*command, flags->common.config);
+    exit_code = features(*flags, *command);
+  });
 }
 
 }  // namespace intarsia::tools

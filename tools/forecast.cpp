@@ -8,6 +8,8 @@
 #include <sstream>
 
 #include <fmt/format.h>
+
+#include "engine/base/error.h"
 namespace intarsia::tools {
 namespace {
 
@@ -107,6 +109,14 @@ std::uint64_t available_memory() {
 std::string memory_text(std::uint64_t bytes) {
   const double b = static_cast<double>(bytes);
   return b >= 1e9 ? fmt::format("{:.2f} GB", b / 1e9) : fmt::format("{:.0f} MB", b / 1e6);
+}
+
+void check_memory(const Forecast& forecast, std::uint64_t most) {
+  if (most == 0 || forecast.peak_memory <= most) return;
+  throw Error(ErrorCode::no_memory,
+              "this mesh needs about " + memory_text(forecast.peak_memory) + ", more than the " + memory_text(most) +
+                  " that --max-memory allows; nothing was begun. Allow more, or take a smaller mesh: simplified, or in "
+                  "parts");
 }
 
 }  // namespace intarsia::tools

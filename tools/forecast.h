@@ -41,4 +41,7 @@ std::uint64_t available_memory();
 // "1.65 GB".
 std::string memory_text(std::uint64_t bytes);
 
+// Errors: no_memory if more than `most` bytes are wanted; 0 = no limit.
+void check_memory(const Forecast& forecast, std::uint64_t most);
+
 }  // namespace intarsia::tools

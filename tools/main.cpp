@@ -11,6 +11,7 @@
 #include <spdlog/spdlog.h>
 
 #include "tools/commands.h"
+#include "tools/config_file.h"
 #include "tools/exit_code.h"
 #include "tools/report.h"
 
@@ -23,6 +24,15 @@ int fail(const intarsia::Error& e) {
   else
     spdlog::error("{}{}", where, e.what());
   return intarsia::tools::exit_code_of(e.code());
+}
+
+// What CLI11 says, and what may have been meant.
+int usage_error(const CLI::App& app, const CLI::ParseError& e) {
+  const int status = app.exit(e);
+  if (status == 0) return intarsia::tools::kExitDone;
+  const std::string hint = intarsia::tools::hint_for_unknown(app);
+  if (!hint.empty()) std::fprintf(stderr, "%s\n", hint.c_str());
+  return intarsia::tools::kExitUsage;
 }
 
 }  // namespace
@@ -45,14 +55,16 @@ int main(int argc, char** argv) {
   add_info_command(app, exit_code);
   add_make_command(app, exit_code);
   add_table1_command(app, exit_code);
+  add_compare_command(app, exit_code);
   add_distance_command(app, exit_code);
   add_eval_command(app, exit_code);
   add_seg_eval_command(app, exit_code);
   add_baseline_command(app, exit_code);
+  allow_config_without_input(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? kExitDone : kExitUsage;
+    return usage_error(app, e);
   } catch (const intarsia::Error& e) {
     return fail(e);
   } catch (const std::bad_alloc&) {

@@ -4,6 +4,7 @@
 
 #include "graph/layout_graph.h"
 #include "graph/visit_options.h"
+#include "tools/config_file.h"
 
 namespace intarsia::tools {
 
@@ -23,21 +24,33 @@ void add_common_flags(CLI::App& app, CommonFlags& flags) {
   app.add_option("--max-memory", flags.max_memory,
                  "refuse at once what would need more memory, by forecast: bytes, or with K M G (of 1024)")
       ->transform(CLI::AsSizeValue(false));
-  app.add_option_function<std::string>(
-         "--min-feature", [&flags](const std::string& text) { flags.min_feature = parse_length(text); },
-         "details below this size get no patches: 1.5 (model units), 2% (of the diagonal), 4e (mean edges)")
-      ->check([](const std::string& text) -> std::string {
-        try {
-          parse_length(text);
-        } catch (const Error& e) {
-          return e.what();
-        }
-        return {};
-      });
+  add_length_flag(app, "--min-feature", flags.min_feature, "details below this size get no patches");
   app.add_flag("--strict", flags.strict, "refuse a mesh that is no oriented 2-manifold instead of mending it");
   app.add_option("--report", flags.report, "write the report to this file too");
   app.add_option("--trace", flags.trace, "write a Chrome trace of the stages to this file");
+  app.add_option("--progress", flags.progress,
+                 "on standard error: bar (with the time left), lines, json (a line for each event), none; auto: bar on "
+                 "a terminal, else lines")
+      ->check(CLI::IsMember({"auto", "bar", "lines", "json", "none"}))
+      ->capture_default_str();
   app.add_flag("-q,--quiet", flags.quiet, "print nothing but errors");
+  add_config_flags(app, flags);
+}
+
+CLI::Option* add_length_flag(CLI::App& app, const std::string& name, Length& length, const std::string& help) {
+  const auto set = [&length](const std::string& text) { length = parse_length(text); };
+  const auto check = [](const std::string& text) -> std::string {
+    try {
+      parse_length(text);
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return {};
+  };
+  return app
+      .add_option_function<std::string>(name, set, help + ": 1.5 (model units), 2% (of the diagonal), 4e (mean edges)")
+      ->check(check)
+      ->type_name("LENGTH");
 }
 
 void OptionFlags::add_to(CLI::App& app) {

@@ -13,17 +13,19 @@ namespace intarsia::tools {
 
 // Settings every command that runs stages has.
 struct CommonFlags {
-  std::string mode = "robust", subdivide, order = "fixed", report, trace, checkpoint;
+  std::string mode = "robust", subdivide, order = "fixed", report, trace, checkpoint, config, progress = "auto";
   int threads = 0;
   std::uint64_t max_memory = 0;  // bytes; 0 = no limit
   std::uint64_t seed = 0;
   Length min_feature;
   bool strict = false;
   double time_limit = 0;  // seconds; 0 = none
-  bool quiet = false;
+  bool quiet = false, print_config = false;
 };
 
 void add_common_flags(CLI::App& app, CommonFlags& flags);
+// An option that takes a length: 1.5 (model units), 2% (of the diagonal), 4e (mean edges).
+CLI::Option* add_length_flag(CLI::App& app, const std::string& name, Length& length, const std::string& help);
 
 // Adds one flag per option. Values given on the command line are kept apart until apply() writes them over the mode's
 // own values.

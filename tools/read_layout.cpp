@@ -102,7 +102,7 @@ class NetworkReader {
     const auto patch = [&](const char* side) {
       return arc.at(side).is_null() ? kNone : number(arc.at(side), patches, "patch");
     };
-    graph_.kind.push_back(static_cast<CurveKind>(number(arc.at("kind"), 6, "kind")));
+    graph_.kind.push_back(static_cast<CurveKind>(number(arc.at("kind"), kCurveKinds, "kind")));
     graph_.start.push_back(number(arc.at("start"), graph_.node.size(), "node"));
     graph_.end.push_back(number(arc.at("end"), graph_.node.size(), "node"));
     graph_.left.push_back(patch("left")), graph_.right.push_back(patch("right"));

@@ -39,14 +39,13 @@ json checks_of(const graph::Layout& layout) {
 }
 
 json arcs_by_kind(const graph::Layout& layout, Real diagonal) {
-  constexpr const char* kName[] = {"ridge", "valley", "sharp", "border", "extension", "subdivision"};
   json rows;
-  for (int k = 0; k < 6; ++k) {
+  for (int k = 0; k < kCurveKinds; ++k) {
     Index arcs = 0;
     Real length = 0;
     for (Index a = 0; a < layout.graph.arc_count(); ++a)
       if (static_cast<int>(layout.graph.kind[a]) == k) ++arcs, length += layout.graph.length[a];
-    rows[kName[k]] = {{"arcs", arcs}, {"length", length * diagonal}};
+    rows[kKindNames[static_cast<std::size_t>(k)]] = {{"arcs", arcs}, {"length", length * diagonal}};
   }
   return rows;
 }

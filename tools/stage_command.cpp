@@ -22,14 +22,6 @@ RunContext& listened(RunContext& context, ProgressBar& bar) {
   return context;
 }
 
-void check_memory(const Forecast& forecast, std::uint64_t most) {
-  if (most == 0 || forecast.peak_memory <= most) return;
-  throw Error(ErrorCode::no_memory,
-              "this mesh needs about " + memory_text(forecast.peak_memory) + ", more than the " + memory_text(most) +
-                  " that --max-memory allows; nothing was begun. Allow more, or take a smaller mesh: simplified, or in "
-                  "parts");
-}
-
 // Of the bits of this program: another build may compute something else.
 std::uint64_t program_hash() {
   try {
@@ -71,7 +63,7 @@ StageCommand::StageCommand(std::string name, std::string input, const CommonFlag
       input_(std::move(input)),
       flags_(flags),
       context_(settings_of(flags), &interrupt_flag()),
-      bar_(flags.quiet ? ProgressBar::Style::none : ProgressBar::style_for_terminal()),
+      bar_(flags.quiet && flags.progress == "auto" ? ProgressBar::Style::none : ProgressBar::style_of(flags.progress)),
       flow_(listened(context_, bar_), std::filesystem::path(input_).filename().string()) {
   if (flags.time_limit > 0) limit_.emplace(context_, flags.time_limit);
   if (!flags.checkpoint.empty()) flow_.use(checkpoints_.emplace(flags.checkpoint, program_hash()));

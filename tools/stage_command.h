@@ -29,6 +29,7 @@ class StageCommand {
   StageCommand(std::string name, std::string input, const CommonFlags& flags);
 
   Flow& flow() { return flow_; }
+  Work work() { return context_.work(); }
   const Port<Soup>& soup() const { return soup_; }
 
   // Runs the stages. Returns the report: what every command reports, then what `add` puts into it. If a stage fails,

@@ -1,6 +1,7 @@
 // Polylines over surface points. Curves share a point by sharing its index; nothing else joins them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -11,7 +12,26 @@
 namespace intarsia {
 
 // Numbers as written to files.
-enum class CurveKind : std::uint8_t { ridge = 0, valley = 1, sharp = 2, border = 3, extension = 4, subdivision = 5 };
+enum class CurveKind : std::uint8_t {
+  ridge = 0,
+  valley = 1,
+  sharp = 2,
+  border = 3,
+  extension = 4,
+  subdivision = 5,
+  given = 6,  // by the user: never moved, never merged away
+};
+
+inline constexpr int kCurveKinds = 7;
+inline constexpr std::array<const char*, kCurveKinds> kKindNames = {"ridge",     "valley",      "sharp", "border",
+                                                                    "extension", "subdivision", "given"};
+inline const char* name_of(CurveKind kind) { return kKindNames[static_cast<std::size_t>(kind)]; }
+
+// Where curves of two kinds run along the same edge, the one that ranks first names it.
+inline bool ranks_before(CurveKind a, CurveKind b) {
+  if (a == CurveKind::given || b == CurveKind::given) return a == CurveKind::given && b != CurveKind::given;
+  return a < b;
+}
 
 struct CurveNetwork {
   std::vector<SurfacePoint> point;
@@ -40,6 +60,9 @@ struct RefinedMesh {
   std::vector<std::uint8_t> on_network;  // per refined edge: 1 if it carries a curve or lies on the boundary
   std::vector<CurveKind> edge_kind;      // per refined edge; meaningless where on_network is 0
   EdgeStrengths edge_strength;           // per refined edge: turn angle of the feature it carries, 0 elsewhere
+
+  // Does it carry a curve that the user gave?
+  bool is_given(Index e) const { return !edge_kind.empty() && edge_kind[e] == CurveKind::given && on_network[e] != 0; }
 };
 
 }  // namespace intarsia

@@ -131,7 +131,7 @@ void write_network_ply(const Work& work, const std::filesystem::path& path, cons
     }
   }
   PlyFile ply;
-  ply.comment("intarsia network: kind 0 ridge, 1 valley, 2 sharp, 3 border, 4 extension, 5 subdivision");
+  ply.comment("intarsia network: kind 0 ridge, 1 valley, 2 sharp, 3 border, 4 extension, 5 subdivision, 6 given");
   auto& element = ply.element("vertex", vertex.size());
   const char* axis[] = {"x", "y", "z"};
   for (int i = 0; i < 3; ++i)

@@ -10,7 +10,6 @@ namespace {
 using nlohmann::json;
 
 constexpr int kNetworkSchema = 1;
-constexpr const char* kKindName[] = {"ridge", "valley", "sharp", "border", "extension", "subdivision"};
 
 json point_of(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 json id_or_null(Index i) { return i == kNone ? json(nullptr) : json(i); }
@@ -80,7 +79,7 @@ json interior_of(const LayoutView& layout) {
 
 void write_network_json(const Work& work, const std::filesystem::path& path, const LayoutView& layout) {
   json root = {{"schema", "intarsia-network"}, {"version", kNetworkSchema}};
-  for (int k = 0; k < 6; ++k) root["kinds"][std::to_string(k)] = kKindName[k];
+  for (int k = 0; k < kCurveKinds; ++k) root["kinds"][std::to_string(k)] = kKindNames[static_cast<std::size_t>(k)];
   root["nodes"] = nodes_of(layout);
   root["arcs"] = arcs_of(work, layout);
   root["patches"] = patches_of(layout);

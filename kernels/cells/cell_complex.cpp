@@ -14,7 +14,7 @@ void add_arcs(const Work& work, const RefinedMesh& refined, const LayoutGraph& g
   const MeshView mesh = refined.mesh;
   const Index arcs = g.arc_count();
   c.start = g.start, c.end = g.end, c.nodes = g.node_count();
-  c.length.resize(arcs), c.salience.assign(arcs, 0);
+  c.length.resize(arcs), c.salience.assign(arcs, 0), c.given.assign(arcs, 0);
   c.arc_offset = g.arc.offset;
   if (c.arc_offset.empty()) c.arc_offset.push_back(0);
   c.point.resize(g.arc.item.size());
@@ -25,6 +25,7 @@ void add_arcs(const Work& work, const RefinedMesh& refined, const LayoutGraph& g
     for (std::size_t k = 0; k < row.size(); ++k) p[k] = mesh.point(row[k]);
     for (const Index e : g.arc_edges.row(a)) {
       const Real theta = refined.edge_strength.empty() ? 0 : refined.edge_strength[e];
+      c.given[a] |= refined.is_given(e) ? 1 : 0;
       c.salience[a] += theta * theta * (mesh.point(mesh.edge_v1[e]) - mesh.point(mesh.edge_v0[e])).norm();
     }
     if (is_free(g.kind[a])) smooth_polyline(p, smoothing);

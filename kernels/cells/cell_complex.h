@@ -28,6 +28,7 @@ struct CellComplex {
   std::vector<Index> arc_offset;  // arc -> its points, both ends included
   std::vector<Vec3> point;
   std::vector<Real> length, salience;  // per arc; salience: integral of theta^2 ds
+  std::vector<std::uint8_t> given;     // per arc: 1 if it carries a curve that the user gave; empty: none does
   std::vector<Real> area;              // per cell
   std::vector<int> open_euler;         // per cell: 2 - 2 genus - loops; 1 for a disc
   Csr samples;                         // cell -> sample points
@@ -42,6 +43,7 @@ struct CellComplex {
   std::span<const Vec3> arc_points(Index a) const {
     return std::span(point).subspan(arc_offset[a], arc_offset[a + 1] - arc_offset[a]);
   }
+  bool is_given(Index half) const { return !given.empty() && given[half / 2] != 0; }
   Index half_start(Index h) const { return h % 2 ? end[h / 2] : start[h / 2]; }
 };
 

@@ -45,6 +45,20 @@ std::vector<Index> Grouping::neighbours(Index g) const {
   return found;
 }
 
+bool Grouping::is_kept_from(Index cell, Index g) const {
+  if (complex_->given.empty()) return false;
+  for (const Index h : complex_->cell_halves.row(cell)) {
+    const Index o = complex_->half_cell[h ^ 1];
+    if (o != kNone && group_[o] == g && complex_->is_given(h)) return true;
+  }
+  return false;
+}
+
+bool Grouping::are_kept_apart(Index g, Index h) const {
+  const Index few = cells_[g].size() <= cells_[h].size() ? g : h, many = few == g ? h : g;
+  return std::any_of(cells_[few].begin(), cells_[few].end(), [&](Index c) { return is_kept_from(c, many); });
+}
+
 void Grouping::weigh(Index wanted) {
   Real round = 0;
   for (Index g = 0; g < size(); ++g)

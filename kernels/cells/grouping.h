@@ -25,6 +25,9 @@ class Grouping {
   Real cost(Index g) const { return cost_of(shape_[g], options_); }
   Index version(Index g) const { return version_[g]; }  // counts changes of its set of cells
   std::vector<Index> neighbours(Index g) const;         // groups across its border, ascending
+  // Does a curve that the user gave run between them?
+  bool is_kept_from(Index cell, Index g) const;
+  bool are_kept_apart(Index g, Index h) const;
   // Fixes the weights of perimeters and features by the shapes as they are now. A number of patches other than `wanted`
   // is allowed for: errors fall with the square of the number.
   void weigh(Index wanted);
@@ -37,8 +40,8 @@ class Grouping {
   }
 
   void merge(const Work& work, Index into, Index from);
-  // Moves a cell if the total cost, corners of the groups around included, falls by more than `least`; otherwise nothing
-  // changes. Returns whether it moved.
+  // Moves a cell if the total cost, corners of the groups around included, falls by more than `least`; otherwise
+  // nothing changes. Returns whether it moved.
   bool try_move(const Work& work, Index cell, Index to, Real least);
 
   // Patch of every face, from its cell; compact ids in order of the smallest face.

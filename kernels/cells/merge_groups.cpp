@@ -19,6 +19,7 @@ struct Pair {
 
 Real union_cost(const Grouping& g, Index a, Index b, GroupScratch& scratch) {
   constexpr Real kNever = std::numeric_limits<Real>::infinity();
+  if (g.are_kept_apart(a, b)) return kNever;
   std::vector<Index> cells;
   std::ranges::merge(g.cells(a), g.cells(b), std::back_inserter(cells));
   const int worse = std::max(g.shape(a).defect(), g.shape(b).defect());

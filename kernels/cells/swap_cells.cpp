@@ -19,7 +19,7 @@ struct Move {
 Real gain_of(const Grouping& g, Index cell, Index to, GroupScratch& scratch) {
   constexpr Real kNever = std::numeric_limits<Real>::infinity();
   const Index from = g.group_of(cell);
-  if (g.cells(from).size() < 2) return kNever;
+  if (g.cells(from).size() < 2 || g.is_kept_from(cell, to)) return kNever;
   const Override moved{cell, to};
   std::vector<Index> cells(g.cells(from).begin(), g.cells(from).end());
   std::erase(cells, cell);

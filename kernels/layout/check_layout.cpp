@@ -8,9 +8,9 @@
 #include "engine/base/error.h"
 #include "engine/parallel/reduce.h"
 #include "engine/parallel/union_find.h"
+#include "engine/space/surface_path.h"
 #include "kernels/layout/label_sums.h"
 #include "kernels/layout/parent_weights.h"
-#include "kernels/layout/surface_path.h"
 
 namespace intarsia::kernels {
 namespace {

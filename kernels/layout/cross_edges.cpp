@@ -6,8 +6,8 @@
 #include "engine/base/error.h"
 #include "engine/parallel/for_each.h"
 #include "engine/parallel/sort.h"
+#include "engine/space/surface_path.h"
 #include "kernels/layout/curve_conflicts.h"
-#include "kernels/layout/surface_path.h"
 
 namespace intarsia::kernels {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "engine/parallel/build_csr.h"
 #include "engine/parallel/sort.h"
-#include "kernels/layout/surface_path.h"
+#include "engine/space/surface_path.h"
 
 namespace intarsia::kernels {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "engine/base/error.h"
 #include "engine/parallel/compact.h"
+#include "engine/space/surface_path.h"
 #include "kernels/layout/parent_weights.h"
-#include "kernels/layout/surface_path.h"
 
 namespace intarsia::kernels {
 namespace {

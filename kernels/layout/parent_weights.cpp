@@ -5,7 +5,7 @@
 
 #include "engine/parallel/build_csr.h"
 #include "engine/parallel/reduce.h"
-#include "kernels/layout/surface_path.h"
+#include "engine/space/surface_path.h"
 
 namespace intarsia::kernels {
 

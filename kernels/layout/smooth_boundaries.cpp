@@ -8,8 +8,8 @@
 
 #include "engine/base/error.h"
 #include "engine/parallel/reduce.h"
+#include "engine/space/surface_path.h"
 #include "kernels/layout/label_sums.h"
-#include "kernels/layout/surface_path.h"
 
 namespace intarsia::kernels {
 namespace {
@@ -133,7 +133,7 @@ Points collect_points(const Work& work, const MeshView& original, const RefinedM
 }
 
 bool is_feature(CurveKind k) { return k == CurveKind::ridge || k == CurveKind::valley; }
-bool is_fixed(CurveKind k) { return k == CurveKind::sharp || k == CurveKind::border; }
+bool is_fixed(CurveKind k) { return k == CurveKind::sharp || k == CurveKind::border || k == CurveKind::given; }
 
 void set_reach(const Work& work, const MeshView& original, const RefinedMesh& refined, const LayoutGraph& graph,
                std::span<const Index> label, const SmoothOptions& options, const std::vector<Index>& offset,

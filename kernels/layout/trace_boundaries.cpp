@@ -14,7 +14,7 @@
 namespace intarsia::kernels {
 namespace {
 
-enum class KindClass : std::uint8_t { feature, border, free };
+enum class KindClass : std::uint8_t { feature, border, free, given };
 
 KindClass class_of(CurveKind k) {
   switch (k) {
@@ -24,6 +24,8 @@ KindClass class_of(CurveKind k) {
       return KindClass::feature;
     case CurveKind::border:
       return KindClass::border;
+    case CurveKind::given:
+      return KindClass::given;
     default:
       return KindClass::free;
   }
@@ -229,7 +231,7 @@ void describe_arcs(const Work& work, const BorderGraph& g, const RefinedMesh& re
   for_each(work, Cost::heavy, n, [&](std::size_t c) {
     const auto vertices = chains.vertex.row(static_cast<Index>(c)), edges = chains.edge.row(static_cast<Index>(c));
     for (std::size_t i = 0; i < vertices.size(); ++i) out.arc.item[out.arc.offset[c] + i] = g.vertex[vertices[i]];
-    std::array<Real, 6> by_kind{};
+    std::array<Real, kCurveKinds> by_kind{};
     Real length = 0, strength = 0;
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const Index e = g.edge[edges[i]];

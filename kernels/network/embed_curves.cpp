@@ -314,7 +314,7 @@ class Embedder {
     const std::vector<Real> strength = vertex_strength();
     for (const auto& [e, c] : carried) {
       out_.edge.push_back(e), out_.edge_curve.push_back(c);
-      r.edge_kind[e] = r.on_network[e] ? std::min(r.edge_kind[e], curves_.kind[c]) : curves_.kind[c];
+      if (!r.on_network[e] || ranks_before(curves_.kind[c], r.edge_kind[e])) r.edge_kind[e] = curves_.kind[c];
       r.on_network[e] = 1;
       if (!strength.empty()) r.edge_strength.set(e, (strength[r.mesh.edge_v0[e]] + strength[r.mesh.edge_v1[e]]) / 2);
     }

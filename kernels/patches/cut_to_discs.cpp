@@ -97,7 +97,7 @@ PatchLabels cut_to_discs(const Work& work, const PatchSurface& s, const PatchLab
   Regions regions(labels);
   const Csr faces = faces_of_patches(labels);
   std::vector<Index> order = largest_first(faces);
-  std::erase_if(order, [&](Index p) { return euler[p] == 1; });
+  std::erase_if(order, [&](Index p) { return euler[p] == 1 || s.is_locked(faces.row(p)[0]); });
   std::vector<Index> count(labels.count, 1);
   for_each(work, Cost::single, order.size(), [&](std::size_t i) {
     const Index p = order[i];

@@ -50,7 +50,7 @@ Index merge_tiny(const Work& work, const PatchSurface& surface, const MergeOptio
     if (!graph[p].alive || graph[p].version != version) continue;
     std::tuple<bool, Real, Index> best{true, 0, kNone};
     for (const Border& b : graph[p].borders) {
-      if (b.edges == 0) continue;
+      if (!b.may_vanish()) continue;
       const bool loses = loses_disc(graph, p, b);
       if (loses && options.keep_discs) continue;
       const std::tuple<bool, Real, Index> candidate{loses, merge_cost(graph, p, b, options), b.other};
@@ -73,7 +73,7 @@ void merge_cheapest(const Work& work, const MergeOptions& options, Index target,
   };
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const auto push = [&](Index p, const Border& b) {
-    if (b.edges == 0 || !allowed(p, b)) return;
+    if (!b.may_vanish() || !allowed(p, b)) return;
     const Index low = std::min(p, b.other), high = std::max(p, b.other);
     queue.push({merge_cost(graph, p, b, options), low, high, graph[low].version, graph[high].version});
   };

@@ -19,6 +19,7 @@ void add(Border& into, const Border& from) {
   into.euler += from.euler;
   into.length += from.length;
   into.salience += from.salience;
+  into.given += from.given;
 }
 
 void erase_value(std::vector<Index>& values, Index value) {
@@ -69,6 +70,7 @@ void PatchGraph::add_links(const Work& work, const PatchSurface& s, const PatchL
       b.length += length;
       b.salience += theta * theta * length;
       ++b.edges;
+      b.given += s.is_given(link[i].edge) ? 1 : 0;
     }
     b.euler = static_cast<std::int32_t>(b.edges);
     node_[p].perimeter += b.length;

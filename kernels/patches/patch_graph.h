@@ -19,6 +19,9 @@ struct Border {
   std::int32_t euler = 0;  // edges - vertices that only these two share + short holes that only these two surround
   Real length = 0;
   Real salience = 0;  // integral of theta^2 ds
+  Index given = 0;    // edges of curves that the user gave: with any, the two stay apart
+
+  bool may_vanish() const { return edges > 0 && given == 0; }
 };
 
 struct PatchNode {

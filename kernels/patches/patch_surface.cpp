@@ -70,9 +70,10 @@ Index PatchSurface::before_on_hole(Index e) const {
 }
 
 PatchSurface make_patch_surface(const Work& work, const RefinedMesh& refined, Vec3View parent_normal, Real mean_edge,
-                                Real hole_length) {
+                                Real hole_length, std::span<const std::uint8_t> locked) {
   PatchSurface s;
   s.mesh = refined.mesh.view();
+  s.refined = &refined, s.locked = locked;
   s.strengths = &refined.edge_strength;
   s.normal = FaceVectors(parent_normal, refined.parent);
   s.mean_edge = mean_edge;

@@ -57,24 +57,30 @@ struct PatchSurface {
   Csr hole;            // short boundary loop -> its edges in order along the loop
   std::vector<std::pair<Index, Index>> hole_before;  // (edge, edge before it on its loop), sorted
   std::vector<std::uint8_t> beside_hole;             // per face: 1 if it has an edge on such a loop
+  const RefinedMesh* refined = nullptr;
+  std::span<const std::uint8_t> locked;  // per face: 1 where patches must stay whole (empty: nowhere); see lock()
 
   Index neighbour(Index f, int i) const { return mesh.other_face(mesh.face_edge[3 * f + i], f); }
   Vec3 centroid(Index f) const {
     const auto [a, b, c] = mesh.face(f);
     return (mesh.point(a) + mesh.point(b) + mesh.point(c)) / 3;
   }
+  // Edges of curves that the user gave: no patch may grow across them.
+  bool is_given(Index e) const { return refined->is_given(e); }
+  bool is_locked(Index f) const { return !locked.empty() && locked[f] != 0; }
   Real strength(Index e) const { return strengths->empty() ? 0 : (*strengths)[e]; }
   Real edge_length(Index e) const { return (mesh.point(mesh.edge_v1[e]) - mesh.point(mesh.edge_v0[e])).norm(); }
   // The edge before e on its short boundary loop, or kNone if e is on none.
   Index before_on_hole(Index e) const;
 };
 
-// Requires: unit (or zero) parent normals, one per original face; mean_edge > 0. Keeps views of `refined` and of
-// `parent_normal`.
+// Requires: unit (or zero) parent normals, one per original face; mean_edge > 0. Keeps views of `refined`, of
+// `parent_normal` and of `locked`: per refined face 1 where patches must not be divided, equal over each patch that the
+// network encloses; empty: nowhere.
 // hole_length: boundary loops of the surface shorter than this count as filled (section 17.1), unless a loop is longer
 // than the square root of the area of its component: that is the outer border of a small piece.
 PatchSurface make_patch_surface(const Work& work, const RefinedMesh& refined, Vec3View parent_normal, Real mean_edge,
-                                Real hole_length = 0.05);
+                                Real hole_length = 0.05, std::span<const std::uint8_t> locked = {});
 
 // Face normals averaged over `rounds` rings of edge neighbours with the same label, by area; at most unit length. What
 // regions grow by: single noisy faces neither attract seeds nor fray borders. 0 rounds: the normals themselves.

@@ -60,7 +60,7 @@ class Halving {
   }
   void push(Index p) {
     constexpr Real kFlatWorth = 1e-4;  // lets area decide among flat patches
-    if (faces_[p].size() < 2) return;
+    if (faces_[p].size() < 2 || s_.is_locked(faces_[p][0])) return;
     const Shape shape = measure(faces_[p]);
     queue_.push({shape.energy + kFlatWorth * shape.area, shape.area, p});
   }

@@ -33,6 +33,10 @@ class Seeding {
       auto scratch = pool.borrow();
       for (std::size_t p = begin; p < end; ++p) {
         const Index id = static_cast<Index>(p);
+        if (s_.is_locked(faces_.row(id)[0])) {
+          source_[p].error[0] = -1;
+          continue;
+        }
         source_[p].error[0] = region_error(s_, {id, 0, faces_.row(id)}, regions_, options_.error, *scratch);
       }
     });

@@ -94,6 +94,7 @@ PatchLabels split_patches(const Work& work, const PatchSurface& s, const PatchLa
   std::vector<Index> count(labels.count, 1);
   for_each(work, Cost::single, order.size(), [&](std::size_t i) {
     const Index p = order[i];
+    if (s.is_locked(faces.row(p)[0])) return;
     count[p] = split_region(work, s, normal, {p, 0, faces.row(p)}, options, regions);
   });
   return collect_regions(work, regions, count);

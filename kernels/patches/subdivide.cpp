@@ -32,8 +32,8 @@ void mark_borders(const Work& work, const RefinedMesh& refined, const PatchLabel
 }
 
 Subdivision subdivide(const Work& work, const RefinedMesh& refined, Vec3View parent_normal, Real mean_edge,
-                      const SubdivideOptions& options) {
-  const PatchSurface surface = make_patch_surface(work, refined, parent_normal, mean_edge, options.hole_length);
+                      const SubdivideOptions& options, std::span<const std::uint8_t> locked) {
+  const PatchSurface surface = make_patch_surface(work, refined, parent_normal, mean_edge, options.hole_length, locked);
   Subdivision out;
   PatchLabels labels = flood_patches(work, surface.mesh, refined.on_network);
   out.network_patches = labels.count;

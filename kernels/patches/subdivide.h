@@ -36,8 +36,9 @@ struct Subdivision {
 // Requires: `refined` with a closed network (loose ends are ignored), parent normals of the original faces, mean edge
 // length of the original mesh in units of its diagonal.
 // Ensures: every patch connected; on_network marks exactly the edges between two patches and those of the boundary.
+// locked: as make_patch_surface has it.
 Subdivision subdivide(const Work& work, const RefinedMesh& refined, Vec3View parent_normal, Real mean_edge,
-                      const SubdivideOptions& options);
+                      const SubdivideOptions& options, std::span<const std::uint8_t> locked = {});
 
 // Marks of the final labels on the edges of the refined mesh.
 void mark_borders(const Work& work, const RefinedMesh& refined, const PatchLabels& labels,

@@ -24,4 +24,14 @@ struct LineMatch {
 // Exact distances of points on `lines`, at steps of a sixteenth of the tolerance or less, to the segments of `other`.
 LineMatch match_lines(const Work& work, const Segments& lines, const Segments& other, Real tolerance);
 
+// How far lines are from others.
+struct LineDistance {
+  Real length = 0;                                   // of the lines
+  Real mean = 0, median = 0, high = 0, largest = 0;  // by length; high: 90 % are nearer
+};
+
+// Distances of points on `lines`, not farther apart than `step`, to the segments of `other`.
+// Requires: both have segments, step > 0.
+LineDistance line_distance(const Work& work, const Segments& lines, const Segments& other, Real step);
+
 }  // namespace intarsia::kernels

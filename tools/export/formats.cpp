@@ -1,8 +1,8 @@
 #include "tools/export/formats.h"
 
 #include <algorithm>
-#include <numeric>
 
+#include "engine/base/nearest_word.h"
 #include "tools/export/write_glb.h"
 #include "tools/export/write_labels.h"
 #include "tools/export/write_obj.h"
@@ -30,21 +30,6 @@ const std::vector<Format>& formats() {
   return all;
 }
 
-// Levenshtein's distance.
-std::size_t edits(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
 std::vector<std::string> known_items() {
   std::vector<std::string> items;
   for (const Format& f : formats()) items.push_back(f.name);
@@ -54,14 +39,11 @@ std::vector<std::string> known_items() {
 }
 
 [[noreturn]] void unknown(const std::string& item) {
-  const std::vector<std::string> items = known_items();
-  const auto nearest = std::min_element(items.begin(), items.end(), [&](const std::string& a, const std::string& b) {
-    return edits(item, a) < edits(item, b);
-  });
   std::string names;
   for (const Format& f : formats()) names += f.name + ", ";
-  throw Error(ErrorCode::bad_argument, "--write: there is no '" + item + "'; did you mean '" + *nearest +
-                                           "'? Known are " + names + "all, none and names of files");
+  throw Error(ErrorCode::bad_argument, "--write: there is no '" + item + "'; did you mean '" +
+                                           nearest_word(item, known_items()) + "'? Known are " + names +
+                                           "all, none and names of files");
 }
 
 }  // namespace

@@ -34,10 +34,6 @@ struct Handover {
   Index corner(std::size_t c) const { return layout_vertex(layout, layout.refined->mesh.corner[c]); }
 };
 
-inline constexpr std::array<const char*, 6> kKindNames = {"ridge",  "valley",    "sharp",
-                                                          "border", "extension", "subdivision"};
-inline const char* name_of(CurveKind kind) { return kKindNames[static_cast<std::size_t>(kind)]; }
-
 // Fills input_patch and single from the layout.
 void complete(const Work& work, Handover& handover);
 

@@ -140,13 +140,13 @@ void describe_patches(Document& doc, const Handover& handover, const Surface& s,
   doc.root["meshes"].push_back({{"name", "patches"}, {"primitives", std::move(primitives)}});
 }
 
-void describe_curves(Document& doc, const std::vector<Point>& point, const std::vector<Index> (&segment)[6]) {
+void describe_curves(Document& doc, const std::vector<Point>& point, const std::vector<Index> (&segment)[kCurveKinds]) {
   if (point.empty()) return;
   const std::size_t places = doc.view(12 * point.size(), kArrayBuffer);
   const std::size_t place = doc.accessor(places, 0, kFloat, point.size(), "VEC3");
   add_box(doc.root["accessors"][place], point, {0, point.size()});
   json primitives = json::array();
-  for (int k = 0; k < 6; ++k) {
+  for (int k = 0; k < kCurveKinds; ++k) {
     if (segment[k].empty()) continue;
     const std::size_t view = doc.view(4 * segment[k].size(), kElementBuffer);
     primitives.push_back({{"attributes", {{"POSITION", place}}},
@@ -181,7 +181,7 @@ void write_layout_glb(const Work& work, const std::filesystem::path& path, const
   std::vector<Point> point, curve_point;
   point.reserve(s.vertex.size());
   for (const Index v : s.vertex) point.push_back(local(layout_point(layout, v), layout.centre));
-  std::vector<Index> segment[6];
+  std::vector<Index> segment[kCurveKinds];
   for (Index a = 0; a < graph.arc_count(); ++a) {
     std::vector<Index>& to = segment[static_cast<int>(graph.kind[a])];
     const Index first = static_cast<Index>(curve_point.size());

@@ -57,7 +57,7 @@ void write_patches_mtl(const std::filesystem::path& path, const Handover& handov
   }
   const std::vector<Index>& patch = handover.input_patch;
   if (std::find(patch.begin(), patch.end(), kNone) != patch.end()) put_material(out, "left_out", 128, 128, 128);
-  for (int k = 0; k < 6; ++k) {
+  for (int k = 0; k < kCurveKinds; ++k) {
     const Rgb c = style_of(static_cast<CurveKind>(k)).colour;
     put_material(out, name_of(static_cast<CurveKind>(k)), c.r, c.g, c.b);
   }

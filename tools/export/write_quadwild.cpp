@@ -50,7 +50,7 @@ bool is_convex(const MeshView& mesh, Index e) {
 }
 
 bool is_feature(CurveKind kind) {
-  return kind == CurveKind::ridge || kind == CurveKind::valley || kind == CurveKind::sharp;
+  return kind == CurveKind::ridge || kind == CurveKind::valley || kind == CurveKind::sharp || kind == CurveKind::given;
 }
 
 std::vector<FeatureEdge> feature_edges(const LayoutView& layout, const LayoutFaces& faces) {
@@ -66,7 +66,7 @@ std::vector<FeatureEdge> feature_edges(const LayoutView& layout, const LayoutFac
       for (int i = 0; i < 3; ++i)
         if (mesh.face_edge[3 * f + static_cast<Index>(i)] == e) edge = (i + 1) % 3;  // opposite corner i
       const bool convex =
-          graph.kind[a] == CurveKind::ridge || (graph.kind[a] == CurveKind::sharp && is_convex(mesh, e));
+          graph.kind[a] == CurveKind::ridge || (graph.kind[a] != CurveKind::valley && is_convex(mesh, e));
       out.push_back({faces.place_of[f], edge, convex});
     }
   }

@@ -10,8 +10,9 @@ namespace intarsia::tools {
 namespace {
 
 // Painted from left to right.
-constexpr std::array<CurveKind, 6> kPaintOrder = {CurveKind::subdivision, CurveKind::extension, CurveKind::valley,
-                                                  CurveKind::ridge,       CurveKind::sharp,     CurveKind::border};
+constexpr std::array<CurveKind, kCurveKinds> kPaintOrder = {
+    CurveKind::subdivision, CurveKind::extension, CurveKind::valley, CurveKind::ridge,
+    CurveKind::sharp,       CurveKind::border,    CurveKind::given};
 
 void keep_largest(std::uint32_t& slot, std::uint32_t value) {
   std::atomic_ref<std::uint32_t> cell(slot);
@@ -78,6 +79,8 @@ LineStyle style_of(CurveKind kind) {
       return {{38, 38, 42}, 1.9f};
     case CurveKind::subdivision:
       return {{92, 92, 100}, 1.3f};
+    case CurveKind::given:
+      return {{140, 40, 160}, 2.6f};
   }
   return {};
 }

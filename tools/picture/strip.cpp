@@ -15,12 +15,13 @@ struct LegendItem {
   CurveKind kind;
   const char* name;
 };
-constexpr std::array<LegendItem, 6> kLegend = {{{CurveKind::ridge, "ridge"},
-                                                {CurveKind::valley, "valley"},
-                                                {CurveKind::sharp, "sharp edge"},
-                                                {CurveKind::border, "border"},
-                                                {CurveKind::extension, "extension"},
-                                                {CurveKind::subdivision, "subdivision"}}};
+constexpr std::array<LegendItem, kCurveKinds> kLegend = {{{CurveKind::ridge, "ridge"},
+                                                          {CurveKind::valley, "valley"},
+                                                          {CurveKind::sharp, "sharp edge"},
+                                                          {CurveKind::border, "border"},
+                                                          {CurveKind::extension, "extension"},
+                                                          {CurveKind::subdivision, "subdivision"},
+                                                          {CurveKind::given, "given"}}};
 
 const TextStyle kTitle = {17.0f, 0.145f, {28, 30, 36}};
 const TextStyle kCaption = {13.0f, 0.12f, {98, 102, 112}};

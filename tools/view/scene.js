@@ -69,7 +69,7 @@ uniform mat4 view, projection;
 uniform vec2 pixels;
 uniform float near;
 uniform vec3 least;
-uniform vec4 style[6];
+uniform vec4 style[7];
 out vec4 vColour;
 void main() {
   vec4 s = style[int(kind + 0.5)];

@@ -170,7 +170,7 @@ json meta_of(const Work& work, const Handover& handover, const PageGrid& grid, c
   const LayoutView& layout = handover.layout;
   const View view = best_view(work, shape_of(layout.mesh));
   json kinds = json::array(), colours = json::array(), size = json::array();
-  for (int k = 0; k < 6; ++k) {
+  for (int k = 0; k < kCurveKinds; ++k) {
     const LineStyle style = style_of(static_cast<CurveKind>(k));
     kinds.push_back(
         {{"name", name_of(static_cast<CurveKind>(k))}, {"colour", rgb(style.colour)}, {"width", style.width}});

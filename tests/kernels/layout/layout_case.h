@@ -11,7 +11,7 @@
 #include "kernels/layout/cross_edges.h"
 #include "kernels/layout/match_labels.h"
 #include "kernels/layout/smooth_boundaries.h"
-#include "kernels/layout/surface_path.h"
+#include "engine/space/surface_path.h"
 #include "kernels/layout/trace_boundaries.h"
 #include "kernels/network/embed_curves.h"
 #include "kernels/patches/flood_patches.h"

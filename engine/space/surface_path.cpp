@@ -1,8 +1,8 @@
-#include "kernels/layout/surface_path.h"
+#include "engine/space/surface_path.h"
 
 #include <algorithm>
 
-namespace intarsia::kernels {
+namespace intarsia {
 namespace {
 
 constexpr int kMostWalkSteps = 64;
@@ -219,4 +219,4 @@ bool section_crossings(const MeshView& mesh, const SurfacePoint& from, const Sur
   return false;
 }
 
-}  // namespace intarsia::kernels
+}  // namespace intarsia

@@ -7,7 +7,7 @@
 
 #include "engine/data/surface_point.h"
 
-namespace intarsia::kernels {
+namespace intarsia {
 
 // A point of a face by the weights of its three corners (non-negative, sum 1).
 struct FacePoint {
@@ -49,4 +49,4 @@ FacePoint walk_towards(const MeshView& mesh, FacePoint p, const Vec3& target);
 bool section_crossings(const MeshView& mesh, const SurfacePoint& from, const SurfacePoint& to, Real margin,
                        std::vector<SurfacePoint>& crossings);
 
-}  // namespace intarsia::kernels
+}  // namespace intarsia
