@@ -35,8 +35,9 @@ std::string likely_word(const std::string& word, const std::vector<std::string>&
   if (!nearest.empty() && 3 * edits(word, nearest) <= std::max(word.size(), nearest.size()) + 1) return nearest;
   constexpr std::size_t kLeastLetters = 3;
   // the last part of a dotted name is what people remember of it
+  const std::string bare = word.substr(std::min(word.find_first_not_of('-'), word.size()));
   for (const std::string& k : known)
-    if (word.size() >= kLeastLetters && k.find(word) != std::string::npos) return k;
+    if (bare.size() >= kLeastLetters && k.find(bare) != std::string::npos) return k;
   return {};
 }
 

@@ -14,6 +14,6 @@ TEST_CASE("a likely word is near or holds what was typed; else there is none") {
   const std::vector<std::string> known = {"--patches", "--scale.flat", "--extend.max-length", "--seed"};
   CHECK(likely_word("--pathces", known) == "--patches");
   CHECK(likely_word("--patch", known) == "--patches");
-  CHECK(likely_word("max-length", known) == "--extend.max-length");
+  CHECK(likely_word("--max-length", known) == "--extend.max-length");
   CHECK(likely_word("--banana", known).empty());
 }
