@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/parallel/for_each.h"
 #include "graph/stages.h"
@@ -82,21 +83,27 @@ class Choice {
 
   // The lowest threshold, at least `from`, whose network adds at most `most` patches to the pieces that the surface has
   // anyway, by bisection on logarithms.
-  Real threshold_for(Index most, Real from) const {
-    if (extend(from).patches <= most) return from;
+  Real threshold_for(Index most, Real from) {
+    Result first = extend(from);
+    if (first.patches <= most) {
+      keep(from, std::move(first));
+      return from;
+    }
     const Index pieces = extend(2 * kAlways).patches;
     most = most == kNone ? kNone : most + pieces - 1;
     Real low = from, high = from;
     for (Real s : candidates_.component_saliency) high = std::max(high, 1.01 * s);
     for (int step = 0; step < options_.choice.steps && !work_.is_late(); ++step) {
       const Real middle = std::sqrt(low * high);
-      (extend(middle).patches <= most ? high : low) = middle;
+      Result r = extend(middle);
+      (r.patches <= most ? high : low) = middle;
+      if (r.patches <= most) keep(middle, std::move(r));
     }
     return high;
   }
 
   Network finish(Real threshold) {
-    Result r = extend(threshold);
+    Result r = kept_threshold_ == threshold ? std::move(kept_) : extend(threshold);
     Network n;
     n.min_saliency = threshold;
     n.patches = r.patches;
@@ -144,12 +151,17 @@ class Choice {
     return passed == 0 ? -1 : candidates_.component_saliency[component];
   }
 
+  // What finish() will most likely ask for.
+  void keep(Real threshold, Result&& result) { kept_threshold_ = threshold, kept_ = std::move(result); }
+
   const Work& work_;
   const Surface& surface_;
   const Directions& directions_;
   const LayoutOptions& options_;
   FeatureCurves candidates_;
   const Guides& guides_;
+  Real kept_threshold_ = std::numeric_limits<Real>::quiet_NaN();
+  Result kept_;
   Embedding embedding_;
   PatchSurface patches_;
   std::vector<Index> edge_;  // refined edges that carry curves, ascending
