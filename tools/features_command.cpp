@@ -1,11 +1,10 @@
-#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "engine/io/write_ply.h"
-#include "engine/parallel/for_each.h"
+#include "graph/input_numbers.h"
 #include "graph/layout_graph.h"
 #include "tools/commands.h"
 #include "tools/config_file.h"
@@ -30,14 +29,7 @@ struct FeaturesFlags {
 // The fields in the input's numbering and units. Vertices that no face uses are invalid, their fields zero.
 Written write_fields(const Work& work, const std::filesystem::path& path, const Soup& soup,
                      const graph::Surface& surface, const graph::Scale& scale, const graph::Curvature& curvature) {
-  const std::vector<Index>& copies = surface.mended.copy;
-  std::vector<Index> mesh_vertex(soup.vertex_count(), kNone);
-  for_each(work, Cost::light, surface.order.vertex.size(), [&](std::size_t v) {
-    if (!std::binary_search(copies.begin(), copies.end(), static_cast<Index>(v)))
-      mesh_vertex[surface.order.vertex[v]] = static_cast<Index>(v);
-  });
-  const auto& [welded, into] = std::tie(surface.mended.welded, surface.mended.welded_into);
-  for (std::size_t i = 0; i < welded.size(); ++i) mesh_vertex[welded[i]] = mesh_vertex[into[i]];
+  const std::vector<Index> mesh_vertex = graph::surface_vertices(work, soup, surface);
   const CurvatureFields& k = curvature.fields;
   const Real one = 1, per_length = 1 / surface.box.diagonal, per_area = per_length * per_length;
   const auto real = [&](const std::vector<Real>& values, Real unit) {

@@ -14,6 +14,7 @@
 #include "tools/config_file.h"
 #include "tools/exit_code.h"
 #include "tools/report.h"
+#include "tools/shell_text.h"
 
 namespace {
 
@@ -60,6 +61,7 @@ int main(int argc, char** argv) {
   add_eval_command(app, exit_code);
   add_seg_eval_command(app, exit_code);
   add_baseline_command(app, exit_code);
+  add_shell_commands(app, exit_code);
   allow_config_without_input(app, argc, argv);
   try {
     app.parse(argc, argv);

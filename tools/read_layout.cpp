@@ -1,39 +1,17 @@
 #include "tools/read_layout.h"
 
 #include <fstream>
-#include <numeric>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "engine/io/read_labels.h"
 #include "engine/io/read_mesh.h"
-#include "engine/parallel/connect_mesh.h"
-#include "engine/parallel/for_each.h"
-#include "graph/empty_network.h"
-#include "graph/stages.h"
-#include "kernels/layout/trace_boundaries.h"
-#include "kernels/patches/flood_patches.h"
-#include "kernels/surface/check_soup.h"
-#include "kernels/surface/clean_soup.h"
 
 namespace intarsia::tools {
 namespace {
 
 using nlohmann::json;
-
-Mesh normalised(const Work& work, const Soup& soup, const kernels::BoxTransform& box) {
-  kernels::check_soup(work, soup);
-  Mesh mesh;
-  mesh.x.resize(soup.vertex_count()), mesh.y.resize(soup.vertex_count()), mesh.z.resize(soup.vertex_count());
-  for_each(work, Cost::light, soup.vertex_count(), [&](std::size_t v) {
-    const Vec3 p = box.to_unit({soup.x[v], soup.y[v], soup.z[v]});
-    mesh.x[v] = p.x(), mesh.y[v] = p.y(), mesh.z[v] = p.z();
-  });
-  mesh.corner = soup.corner;
-  connect_mesh(work, mesh);
-  return mesh;
-}
 
 std::vector<Index> whole_numbers(const Work& work, const std::filesystem::path& path, const char* property,
                                  Index below) {
@@ -130,45 +108,6 @@ class NetworkReader {
   LayoutGraph graph_;
 };
 
-// The labels as borders of the mesh itself. All count as features, so that corners of borders become nodes.
-void trace_labels(const Work& work, const std::vector<Index>& label, LayoutFromFile& layout) {
-  RefinedMesh& refined = layout.refined;
-  refined.mesh = layout.mesh;
-  const MeshView mesh = refined.mesh;
-  refined.parent.resize(mesh.face_count());
-  std::iota(refined.parent.begin(), refined.parent.end(), Index{0});
-  const PatchLabels labels = kernels::flood_equal(work, mesh, label);
-  layout.label = labels.patch_of_face;
-  refined.on_network.resize(mesh.edge_count());
-  refined.edge_kind.resize(mesh.edge_count());
-  refined.edge_strength.resize(mesh.edge_count());
-  for_each(work, Cost::light, mesh.edge_count(), [&](std::size_t i) {
-    const Index e = static_cast<Index>(i);
-    const bool boundary = mesh.is_boundary_edge(e);
-    refined.edge_kind[e] = boundary ? CurveKind::border : CurveKind::sharp;
-    refined.on_network[e] = boundary || layout.label[mesh.edge_f0[e]] != layout.label[mesh.edge_f1[e]] ? 1 : 0;
-  });
-  layout.graph = kernels::trace_boundaries(work, refined, layout.label, labels.count);
-}
-
-// The labels through the last stage of a run.
-void smooth_labels(const Work& work, const std::vector<Index>& label, LayoutFromFile& layout) {
-  graph::LayoutOptions options;
-  const graph::Surface surface = graph::mesh_to_surface(work, layout.soup);
-  const graph::Sharp sharp = graph::surface_to_sharp(work, surface, options);
-  const graph::Scale scale = graph::surface_to_scale(work, surface, sharp, options);
-  const graph::Curvature curvature = graph::scale_to_curvature(work, surface, scale, sharp, options);
-  const graph::Network network = graph::empty_network(work, surface);
-  std::vector<Index> reordered(label.size());
-  for (std::size_t f = 0; f < label.size(); ++f) reordered[f] = label[surface.order.face[f]];
-  const graph::Patches patches = graph::patches_of_labels(work, network, surface, reordered);
-  graph::Layout smoothed = graph::patches_to_layout(work, surface, curvature, network, patches, options);
-  layout.refined = std::move(smoothed.refined);
-  layout.label = std::move(smoothed.labels.patch_of_face);
-  layout.graph = std::move(smoothed.graph);
-  for (Index& parent : layout.refined.parent) parent = surface.order.face[parent];
-}
-
 }  // namespace
 
 bool is_result_folder(const std::filesystem::path& folder) {
@@ -182,24 +121,10 @@ LayoutFromFile read_result_folder(const Work& work, const std::filesystem::path&
     throw Error(ErrorCode::bad_file, folder.string() +
                                          ": no result of intarsia run: it must hold patches.ply, "
                                          "layout.ply and network.json");
-  LayoutFromFile layout;
-  layout.soup = read_mesh(work, folder / "patches.ply");
-  const Index given = layout.soup.face_count();
-  kernels::Cleaning cleaning = kernels::clean_soup(work, layout.soup, {});
-  if (cleaning.changed) layout.soup = std::move(cleaning.soup);
-  layout.box = kernels::normalise_box(work, layout.soup);
-  layout.mesh = normalised(work, layout.soup, layout.box);
+  Soup input = read_mesh(work, folder / "patches.ply");
   const std::filesystem::path refined = folder / "layout.ply";
-  layout.refined.mesh = normalised(work, read_mesh(work, refined), layout.box);
-  layout.refined.parent = whole_numbers(work, refined, "parent", given);
-  if (cleaning.changed)
-    for (Index& parent : layout.refined.parent) {
-      parent = cleaning.triangle_of[parent];
-      if (parent == kNone)
-        throw Error(ErrorCode::bad_file, refined.string() +
-                                             ": a face comes from a triangle that cleaning drops; let "
-                                             "intarsia run write it again without --clean options");
-    }
+  std::vector<Index> parent = whole_numbers(work, refined, "parent", input.face_count());
+  LayoutFromFile layout = graph::given_refinement(work, std::move(input), read_mesh(work, refined), std::move(parent));
   const std::filesystem::path network = folder / "network.json";
   layout.graph = NetworkReader(network, layout.refined.mesh).read();
   layout.label = whole_numbers(work, refined, "patch", layout.graph.patch_count());
@@ -207,27 +132,13 @@ LayoutFromFile read_result_folder(const Work& work, const std::filesystem::path&
 }
 
 LayoutFromFile read_labelled_mesh(const Work& work, const LabelledMesh& input) {
-  LayoutFromFile layout;
-  layout.soup = read_mesh(work, input.mesh);
+  Soup soup = read_mesh(work, input.mesh);
   const std::filesystem::path labels = input.labels.empty() ? input.mesh : input.labels;
   std::vector<Index> label;
-  number_labels(labels_of_triangles(labels, read_face_labels(work, labels, input.property), layout.soup.source_face,
-                                    layout.soup.face_count()),
-                label);
-  kernels::Cleaning cleaning = kernels::clean_soup(work, layout.soup, {});
-  if (cleaning.changed) {
-    layout.soup = std::move(cleaning.soup);
-    std::vector<Index> kept;
-    for (const Index t : cleaning.input_triangle) kept.push_back(label[t]);
-    label = std::move(kept);
-  }
-  layout.box = kernels::normalise_box(work, layout.soup);
-  layout.mesh = normalised(work, layout.soup, layout.box);
-  if (input.smooth)
-    smooth_labels(work, label, layout);
-  else
-    trace_labels(work, label, layout);
-  return layout;
+  number_labels(
+      labels_of_triangles(labels, read_face_labels(work, labels, input.property), soup.source_face, soup.face_count()),
+      label);
+  return graph::layout_of_labels(work, std::move(soup), std::move(label), input.smooth);
 }
 
 }  // namespace intarsia::tools

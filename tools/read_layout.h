@@ -4,21 +4,11 @@
 #include <filesystem>
 #include <string>
 
-#include "engine/data/curve_network.h"
-#include "engine/data/layout_graph.h"
-#include "engine/parallel/work.h"
-#include "kernels/surface/normalise_box.h"
+#include "graph/given_layout.h"
 
 namespace intarsia::tools {
 
-struct LayoutFromFile {
-  Soup soup;                  // the input, in its order and units
-  kernels::BoxTransform box;  // of the input
-  Mesh mesh;                  // the input, normalised
-  RefinedMesh refined;        // of it: mesh and parent; the rest is empty
-  std::vector<Index> label;   // patch per refined face
-  LayoutGraph graph;
-};
+using LayoutFromFile = graph::GivenLayout;
 
 // True if the folder holds the files of a result: patches.ply, layout.ply, network.json.
 bool is_result_folder(const std::filesystem::path& folder);

@@ -8,7 +8,7 @@
 
 #include "engine/run/context.h"
 #include "engine/run/record.h"
-#include "graph/artefacts.h"
+#include "graph/layout_report.h"
 #include "tools/option_flags.h"
 
 namespace intarsia::tools {
@@ -17,9 +17,7 @@ namespace intarsia::tools {
 nlohmann::json base_report(const std::string& command, const std::filesystem::path& input, const CommonFlags& common,
                            const RunContext& context, const RunRecord& record, const nlohmann::json& options);
 
-// Adds counts, checks, the patch table and the hash over layout, labels and network.
-void add_layout_report(nlohmann::json& report, const Soup& soup, const graph::Surface& surface,
-                       const graph::Network& network, const graph::Layout& layout, Index wanted_patches);
+using graph::add_layout_report;
 
 nlohmann::json version_json();
 

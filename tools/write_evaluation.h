@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/io/output_folder.h"
-#include "graph/evaluate.h"
+#include "graph/evaluation_report.h"
 #include "tools/picture/camera.h"
 #include "tools/picture/image.h"
 #include "tools/read_layout.h"
@@ -16,9 +16,7 @@ namespace intarsia::tools {
 // Every file name that an evaluation may write.
 std::vector<std::string> evaluation_names();
 
-// eval.json without the input and the time: docs/formats.md.
-nlohmann::json evaluation_json(const graph::Evaluation& evaluation, const graph::EvaluateOptions& options,
-                               Real diagonal);
+using graph::evaluation_json;
 
 // recon-*.ply, deviation.ply (of the triangulated surface, or the first one that was made) and eval.png.
 void write_evaluation(const Work& work, const OutputFolder& folder, const LayoutFromFile& layout,

@@ -1,5 +1,6 @@
 #include "tools/write_result.h"
 
+#include "graph/input_numbers.h"
 #include "tools/picture/palette.h"
 #include "tools/picture/png_file.h"
 #include "tools/preview.h"
@@ -17,15 +18,8 @@ std::vector<Rgb> colours_of(const Work& work, const graph::Layout& layout) {
 Handover handover_of(const Work& work, const Soup& soup, const graph::Surface& surface, const graph::Layout& layout,
                      const std::vector<std::array<std::uint8_t, 3>>& colour, const std::string& name) {
   Handover handover;
-  LayoutView& parts = handover.layout;
-  parts.soup = &soup;
-  parts.vertex_order = surface.order.vertex, parts.face_order = surface.order.face;
-  parts.divided = surface.mended.split_length > 0;
-  parts.copies = surface.mended.copy, parts.twin = surface.mended.twin, parts.twin_of = surface.mended.twin_of;
-  parts.centre = surface.box.centre, parts.diagonal = surface.box.diagonal;
-  parts.refined = &layout.refined, parts.labels = &layout.labels, parts.graph = &layout.graph;
-  parts.interior = &layout.interior, parts.mesh = surface.mesh, parts.face_patch = layout.face_patch;
-  parts.patch_colour = colour, parts.given = surface.given;
+  handover.layout = graph::layout_view(soup, surface, layout);
+  handover.layout.patch_colour = colour;
   handover.name = name;
   complete(work, handover);
   return handover;

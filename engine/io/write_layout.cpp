@@ -76,38 +76,33 @@ void write_patches_ply(const Work& work, const std::filesystem::path& path, cons
   write_ply(work, path, ply);
 }
 
-void write_layout_ply(const Work& work, const std::filesystem::path& path, const LayoutView& layout) {
-  const Soup& soup = *layout.soup;
+std::vector<Index> layout_faces(const Work& work, const LayoutView& layout) {
   const RefinedMesh& refined = *layout.refined;
-  const MeshView mesh = refined.mesh;
-  const Index originals = static_cast<Index>(layout.vertex_order.size());
-  const Index copies = static_cast<Index>(layout.copies.size()), given = soup.vertex_count();
-  const Index added = mesh.vertex_count() - originals, faces = mesh.face_count();
-
-  // Refined faces by their input triangle: counting sort, refined order inside a triangle.
-  std::vector<Index> start(std::size_t{soup.face_count()} + 1, 0);
+  const Index faces = refined.mesh.face_count();
+  std::vector<Index> start(std::size_t{layout.soup->face_count()} + 1, 0);
   for (Index f = 0; f < faces; ++f) ++start[layout.face_order[refined.parent[f]]];
   exclusive_scan<Index>(work, start);
   std::vector<Index> order(faces);
   for (Index f = 0; f < faces; ++f) order[start[layout.face_order[refined.parent[f]]]++] = f;
-  std::vector<Index> corner(std::size_t{faces} * 3);
-  for_each(work, Cost::light, faces, [&](std::size_t i) {
-    for (int k = 0; k < 3; ++k) corner[3 * i + k] = layout_vertex(layout, mesh.corner[3 * order[i] + k]);
+  return order;
+}
+
+void write_layout_ply(const Work& work, const std::filesystem::path& path, const LayoutView& layout) {
+  const RefinedMesh& refined = *layout.refined;
+  const std::vector<Index> order = layout_faces(work, layout);
+  std::vector<Index> corner(order.size() * 3);
+  for_each(work, Cost::light, order.size(), [&](std::size_t i) {
+    for (int k = 0; k < 3; ++k) corner[3 * i + k] = layout_vertex(layout, refined.mesh.corner[3 * order[i] + k]);
   });
 
   PlyFile ply;
   ply.comment("intarsia layout: a refinement of the input whose edges carry all curves");
-  auto& vertex = ply.element("vertex", std::size_t{given} + copies + added);
-  const auto coordinate = [&](const std::vector<Real>& input, int axis) {
-    return [&, axis, data = input.data()](std::size_t v) {
-      if (v < given) return data[v];
-      const Index i = static_cast<Index>(v) - given;
-      return layout_point(layout, i < copies ? layout.copies[i] : originals + i - copies)[axis];
-    };
-  };
-  vertex.column<double>("x", coordinate(soup.x, 0)).column<double>("y", coordinate(soup.y, 1));
-  vertex.column<double>("z", coordinate(soup.z, 2));
-  ply.element("face", faces)
+  auto& vertex = ply.element("vertex", layout_vertex_count(layout));
+  const char* axis[] = {"x", "y", "z"};
+  for (int i = 0; i < 3; ++i)
+    vertex.column<double>(axis[i],
+                          [&, i](std::size_t v) { return layout_point_by_number(layout, static_cast<Index>(v))[i]; });
+  ply.element("face", order.size())
       .triangles(corner)
       .column<std::int32_t>("patch", [&](std::size_t i) { return layout.labels->patch_of_face[order[i]]; })
       .column<std::int32_t>("parent", [&](std::size_t i) { return layout.face_order[refined.parent[order[i]]]; });

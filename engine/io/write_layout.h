@@ -22,7 +22,7 @@ struct LayoutView {
   std::span<const Index> vertex_order;  // canonical vertex -> soup vertex, kNone where it is none
   std::span<const Index> face_order;    // canonical face -> soup triangle
   std::span<const Index> copies;  // canonical vertices that are further copies of a soup vertex, or none: ascending
-  bool divided = false;                 // several canonical faces may be one soup triangle
+  bool divided = false;           // several canonical faces may be one soup triangle
   std::span<const Index> twin;    // soup triangles that repeat twin_of[i]: labelled as those
   std::span<const Index> twin_of;
   Vec3 centre = Vec3::Zero();  // input position = centre + diagonal * normalised position
@@ -40,6 +40,15 @@ struct LayoutView {
 // Patch of every soup triangle: the one with most of its area, ties to the smaller id; kNone where cleaning left it
 // out.
 std::vector<Index> input_patches(const Work& work, const LayoutView& layout);
+
+// The faces of layout.ply, as numbers of refined faces: ascending by input triangle, in refined order inside one.
+std::vector<Index> layout_faces(const Work& work, const LayoutView& layout);
+
+// Vertices of layout.ply: the soup's, then copies, then new ones.
+inline Index layout_vertex_count(const LayoutView& l) {
+  return l.soup->vertex_count() + static_cast<Index>(l.copies.size()) + l.refined->mesh.vertex_count() -
+         static_cast<Index>(l.vertex_order.size());
+}
 
 // Errors of all: write_failed naming the file, numeric, cancelled.
 
@@ -82,6 +91,15 @@ inline Vec3 layout_point(const LayoutView& l, Index v) {
     return {l.soup->x[s], l.soup->y[s], l.soup->z[s]};
   }
   return l.centre + l.diagonal * given_position(l, l.refined->origin[v], l.refined->mesh.view().point(v));
+}
+
+// Position of a vertex of layout.ply.
+inline Vec3 layout_point_by_number(const LayoutView& l, Index v) {
+  const Soup& soup = *l.soup;
+  const Index given = soup.vertex_count(), copies = static_cast<Index>(l.copies.size());
+  if (v < given) return {soup.x[v], soup.y[v], soup.z[v]};
+  const Index i = v - given;
+  return layout_point(l, i < copies ? l.copies[i] : static_cast<Index>(l.vertex_order.size()) + i - copies);
 }
 
 }  // namespace intarsia

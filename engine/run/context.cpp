@@ -16,7 +16,10 @@ RunContext::RunContext(const RunSettings& settings, std::atomic<bool>* cancel)
     : settings_(settings),
       threads_(effective_threads(settings.threads)),
       cancel_(cancel ? cancel : &own_cancel_),
-      control_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_)),
-      arena_(threads_) {}
+      arena_(threads_) {
+  // Without a control of its own an arena never has more threads than there are processors.
+  if (settings.whole_process || threads_ > tbb::info::default_concurrency())
+    control_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_));
+}
 
 }  // namespace intarsia

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <tbb/global_control.h>
@@ -18,6 +19,7 @@ struct RunSettings {
   int threads = 0;  // 0 = every processor the process may use (affinity); results do not depend on it
   std::uint64_t seed = 0;
   Order order = Order::fixed;
+  bool whole_process = true;  // the number of threads holds for all of oneTBB in this process; false: for the context
 };
 
 // Shared by any number of flows, which may run at once. Must outlive them.
@@ -59,7 +61,7 @@ class RunContext {
   std::atomic<bool>* cancel_;
   std::vector<ProgressListener*> listeners_;
   CpuMeter cpu_meter_;
-  tbb::global_control control_;
+  std::optional<tbb::global_control> control_;
   tbb::task_arena arena_;
 };
 
