@@ -53,7 +53,7 @@ class GraphBuilder {
   void add_arc(std::size_t a) {
     const Arc& arc = network_.arcs[a];
     const auto patch = [&](std::int32_t p) { return p < 0 ? kNone : number(p, from_.patches.size(), "patch"); };
-    graph_.kind.push_back(static_cast<CurveKind>(number(static_cast<std::int64_t>(arc.kind), 6, "kind")));
+    graph_.kind.push_back(static_cast<CurveKind>(number(static_cast<std::int64_t>(arc.kind), kCurveKinds, "kind")));
     graph_.start.push_back(number(arc.start, network_.nodes.size(), "node"));
     graph_.end.push_back(number(arc.end, network_.nodes.size(), "node"));
     graph_.left.push_back(patch(arc.left)), graph_.right.push_back(patch(arc.right));

@@ -128,14 +128,22 @@ enum class Subdivide : std::uint8_t {
 /// Options of layout() and features(). A default-made object does everything automatically.
 struct INTARSIA_API Options : RunControl {
   int patches = 0;  ///< wanted number of patches; 0 = automatic
-  std::string
-      min_feature;  ///< smaller details get no patches: "1.5" (units), "2%" (of the diagonal), "4e" (mean edges)
+  /// Instead of a number: as few patches as rebuild the surface from their borders so well (RMS). "0.2%" (of the
+  /// diagonal), "0.01" (units), "0.1e" (mean edges).
+  std::string tolerance;
+  /// Smaller details get no patches; a length of the same forms.
+  std::string min_feature;
   Mode mode = Mode::robust;                    ///< whose rules
   Subdivide subdivide = Subdivide::automatic;  ///< to reach that number
   std::uint64_t seed = 0;                      ///< of the random seeds in paper mode
   std::uint64_t max_memory = 0;                ///< bytes; refuse at once what would need more by forecast; 0 = no limit
   double time_limit = 0;                       ///< seconds; 0 = none
   bool strict = false;                         ///< refuse what would have to be mended
+  /// Curves that become borders as they are: x, y, z of at least two points each, on or near the surface.
+  std::vector<std::vector<double>> curves;
+  /// Regions that stay patches as they are: a number for every triangle, negative where it is free; empty: none. Every
+  /// connected piece of a number becomes one patch.
+  std::vector<std::int32_t> pins;
   std::map<std::string, double, std::less<>> method;  ///< what set() was given
 
   /// Sets an option of the method by its name, such as set("smooth.iterations", 20); flags take 0 or 1.
@@ -158,12 +166,13 @@ INTARSIA_API std::vector<OptionInfo> method_options(Mode mode = Mode::robust);
 
 /// Why an arc is there.
 enum class ArcKind : std::uint8_t {
-  ridge,       ///< a convex feature
-  valley,      ///< a concave feature
-  sharp,       ///< a crease of the mesh itself
-  border,      ///< boundary of the surface
-  extension,   ///< made to close the network
-  subdivision  ///< made to divide a patch
+  ridge,        ///< a convex feature
+  valley,       ///< a concave feature
+  sharp,        ///< a crease of the mesh itself
+  border,       ///< boundary of the surface
+  extension,    ///< made to close the network
+  subdivision,  ///< made to divide a patch
+  given         ///< by the caller: Options::curves, or the border of a pinned region
 };
 
 /// Where arcs meet or end.

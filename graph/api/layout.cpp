@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include <nlohmann/json.hpp>
@@ -116,11 +118,35 @@ json report_of(const Options& options, const graph::LayoutOptions& method, call:
   return report;
 }
 
+graph::GuideSource guides_of(const Options& options) {
+  graph::GuideSource source;
+  if (options.curves.empty() && options.pins.empty()) return source;
+  source.read = [&options](const Soup& soup) {
+    graph::GivenGuides given;
+    for (const std::vector<double>& curve : options.curves) {
+      if (curve.size() < 6 || curve.size() % 3 != 0 ||
+          !std::all_of(curve.begin(), curve.end(), [](double x) { return std::isfinite(x); }))
+        throw Error(ErrorCode::bad_argument, "curve " + std::to_string(given.curve.size()) +
+                                                 " must be x, y, z of two points or more, all finite");
+      std::vector<Vec3>& points = given.curve.emplace_back();
+      for (std::size_t i = 0; i < curve.size(); i += 3) points.emplace_back(curve[i], curve[i + 1], curve[i + 2]);
+    }
+    if (!options.pins.empty() && options.pins.size() != soup.face_count())
+      throw Error(ErrorCode::bad_argument,
+                  "pins must be one for each triangle: " + std::to_string(options.pins.size()) + " for " +
+                      std::to_string(soup.face_count()));
+    given.pin.assign(options.pins.begin(), options.pins.end());
+    return given;
+  };
+  return source;
+}
+
 void make_layout(const TriangleMesh& mesh, const Options& options, Result<Layout>& result) {
   const graph::LayoutOptions method = call::layout_options(options);
   call::Run run(options, options.time_limit);
   const Port<Soup> soup = run.add_read(mesh, &graph::kRunCost, options.max_memory);
-  const graph::LayoutPorts ports = graph::add_layout_stages(run.flow(), soup, method);
+  const graph::LayoutPorts ports = graph::add_layout_stages(run.flow(), soup, method, guides_of(options));
+  keep(ports.goal);
   Layout& out = result.value;
   json summary;
   const auto finish = [&](const Work& work, const Soup& s, const graph::Surface& surface,
@@ -141,7 +167,15 @@ void make_layout(const TriangleMesh& mesh, const Options& options, Result<Layout
   run.run();
   for (const Warning& w : run.flow().record().warnings()) out.remarks.push_back({w.code, w.stage, w.message, w.count});
   out.hash = summary["hash"].get<std::string>();
-  out.report = report_of(options, method, run, summary).dump();
+  json report = report_of(options, method, run, summary);
+  if (method.tolerance.value > 0) {
+    const auto goal = fetch(ports.goal);
+    report["tolerance"] = {{"value", text_of(method.tolerance)},
+                           {"patches", goal->patches},
+                           {"rms_relative", goal->rms},
+                           {"layouts_tried", goal->tries}};
+  }
+  out.report = report.dump();
   if (run.was_shortened())
     result.status = {StatusCode::shortened, "the time limit stopped the improvement of this layout", {}, -1};
   else if (!summary["valid"].get<bool>())

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "engine/base/nearest_word.h"
 #include "graph/api/run.h"
 #include "graph/layout_graph.h"
 #include "graph/visit_options.h"
@@ -13,32 +14,15 @@ graph::LayoutOptions defaults_of(Mode mode, std::uint64_t seed) {
   return mode == Mode::paper ? graph::paper_options(seed) : graph::robust_options();
 }
 
-// Letters to insert, drop or change from one to the other.
-std::size_t edits_between(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t corner = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t changed = corner + (a[i - 1] == b[j - 1] ? 0 : 1);
-      corner = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, changed});
-    }
-  }
-  return row.back();
-}
-
 const OptionInfo& option_named(const std::vector<OptionInfo>& all, std::string_view name) {
-  const OptionInfo* nearest = nullptr;
-  std::size_t least = 0;
+  std::vector<std::string> names;
   for (const OptionInfo& o : all) {
     if (o.name == name) return o;
-    const std::size_t edits = edits_between(name, o.name);
-    if (!nearest || edits < least) nearest = &o, least = edits;
+    names.push_back(o.name);
   }
+  const std::string likely = likely_word(std::string(name), names);
   throw Error(ErrorCode::bad_argument,
-              "there is no option " + std::string(name) + "; did you mean " + nearest->name + "?");
+              "there is no option " + std::string(name) + (likely.empty() ? "" : "; did you mean " + likely + "?"));
 }
 
 void check_value(const OptionInfo& option, double value) {
@@ -82,6 +66,9 @@ graph::LayoutOptions call::layout_options(const Options& o) {
   options.patches = static_cast<Index>(o.patches);
   options.seed = o.seed;
   options.clean.strict = o.strict;
+  if (!o.tolerance.empty()) options.tolerance = parse_length(o.tolerance);
+  if (o.patches > 0 && options.tolerance.value > 0)
+    throw Error(ErrorCode::bad_argument, "patches and tolerance exclude each other");
   if (!o.min_feature.empty()) options.min_feature = parse_length(o.min_feature);
   switch (o.subdivide) {
     case Subdivide::automatic:

@@ -89,8 +89,8 @@ def test_labels_are_those_of_the_program(tmp_path):
 
 
 def test_threads_and_integer_types_change_no_bit():
-    V, F = sphere(10)
-    runs = [intarsia.layout(V, F.astype(kind), patches=6, threads=threads)
+    V, F = cube(10)
+    runs = [intarsia.layout(V, F.astype(kind), patches=9, threads=threads)
             for kind, threads in ((np.int32, 1), (np.int32, 2), (np.int64, 2), (np.uint32, 3))]
     for r in runs[1:]:
         assert r.hash == runs[0].hash
@@ -248,3 +248,28 @@ def test_mending_is_told():
     assert len(r.patches) == 6 and r.remarks
     with pytest.raises(intarsia.RejectedMesh):
         intarsia.layout(V, F, strict=True)
+
+
+def test_curves_and_pins_are_kept():
+    V, F = cube(8)
+    x = np.linspace(0, 1, 9)
+    across = np.column_stack([x, np.full(9, 0.5), np.ones(9)])  # halves the top
+    r = intarsia.layout(V, F, curves=[across])
+    assert len(r.patches) == 7
+    assert r.arcs["length"][r.curve_kind == intarsia.ARC_KINDS.index("given")].sum() == pytest.approx(1)
+    pins = np.where((V[F].mean(axis=1)[:, 2] > 1 - 1e-9) & (V[F].mean(axis=1)[:, 0] < 0.5), 3, -1)
+    pinned = intarsia.layout(V, F, pins=pins)
+    assert len(set(pinned.labels[pins == 3])) == 1
+    assert set(pinned.labels[pins == 3]).isdisjoint(pinned.labels[pins != 3])
+    with pytest.raises(ValueError):
+        intarsia.layout(V, F, pins=pins[1:])
+    with pytest.raises(ValueError):
+        intarsia.layout(V, F, curves=[across[:1]])
+
+
+def test_a_tolerance_instead_of_a_number():
+    V, F = cube(8)
+    r = intarsia.layout(V, F, tolerance="1%")
+    assert r.report["tolerance"]["rms_relative"] <= 0.01
+    with pytest.raises(ValueError):
+        intarsia.layout(V, F, patches=6, tolerance="1%")

@@ -181,6 +181,9 @@ py::tuple answer(Result<T>&& result) {
 Options options_of(const py::dict& given) {
   Options o;
   o.patches = given["patches"].cast<int>(), o.min_feature = given["min_feature"].cast<std::string>();
+  o.tolerance = given["tolerance"].cast<std::string>();
+  o.curves = given["curves"].cast<std::vector<std::vector<double>>>();
+  o.pins = given["pins"].cast<std::vector<std::int32_t>>();
   o.mode = static_cast<Mode>(given["mode"].cast<int>());
   o.subdivide = static_cast<Subdivide>(given["subdivide"].cast<int>());
   o.seed = given["seed"].cast<std::uint64_t>(), o.max_memory = given["max_memory"].cast<std::uint64_t>();

@@ -143,6 +143,30 @@ TEST_CASE("what is wrong comes back as a status that names it") {
   }
 }
 
+TEST_CASE("given curves and pinned regions are kept") {
+  const PlainMesh cube = test::plain(test::cube(8));
+  Options options;
+  options.curves = {{0, 0.5, 1, 1, 0.5, 1}};  // halves the top
+  const Result<Layout> r = layout(cube.view(), options);
+  REQUIRE(r);
+  CHECK(r->patches.size() == 7);
+  double length = 0;
+  for (const Arc& arc : r->network.arcs)
+    if (arc.kind == ArcKind::given) length += arc.length;
+  CHECK(length == doctest::Approx(1));
+  options.curves = {{0, 0.5, 1}};
+  CHECK(layout(cube.view(), options).status.code == StatusCode::bad_argument);
+  options.curves.clear();
+  options.pins = {1, 2, 3};
+  CHECK(layout(cube.view(), options).status.code == StatusCode::bad_argument);
+  options.pins.clear();
+  options.tolerance = "1%";
+  const auto report = nlohmann::json::parse(layout(cube.view(), options)->report);
+  CHECK(report["tolerance"]["rms_relative"].get<double>() <= 0.01);
+  options.patches = 5;
+  CHECK(layout(cube.view(), options).status.code == StatusCode::bad_argument);
+}
+
 TEST_CASE("options are set by name, in range, and a wrong name gets a suggestion") {
   Options options;
   CHECK(options.set("smooth.iterations", 3).code == StatusCode::ok);

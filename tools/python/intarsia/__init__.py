@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import json
 import warnings
-from typing import Any, Callable, Mapping, Optional, Union
+from typing import Any, Callable, Iterable, Mapping, Optional, Union
 
 import numpy as np
 
@@ -90,17 +90,27 @@ def _triangles(F: Any, name: str = "F") -> np.ndarray:
     return np.ascontiguousarray(array, dtype=wanted)
 
 
+def _labels(values: Any, name: str) -> np.ndarray:
+    array = np.asarray(values)
+    if array.ndim != 1 or array.dtype.kind not in "iu":
+        raise ValueError(f"{name} must be one whole number per triangle")
+    return np.ascontiguousarray(array, dtype=np.int32)
+
+
 def _choice(value: str, choices: tuple, name: str) -> int:
     if value not in choices:
         raise ValueError(f"{name} must be one of {', '.join(choices)}, not {value!r}")
     return choices.index(value)
 
 
-def _options(patches: Optional[int], min_feature: Union[str, float], mode: str, subdivide: str, threads: int, seed: int,
-             max_memory: int, time_limit: float, strict: bool, options: Optional[Mapping[str, float]]) -> dict:
+def _length(value: Union[None, str, float]) -> str:
+    return "" if value is None else value if isinstance(value, str) else repr(float(value))
+
+
+def _options(patches: Optional[int], min_feature: Union[None, str, float], mode: str, subdivide: str, threads: int,
+             seed: int, max_memory: int, time_limit: float, strict: bool, options: Optional[Mapping[str, float]]) -> dict:
     return {
-        "patches": int(patches or 0),
-        "min_feature": min_feature if isinstance(min_feature, str) else repr(float(min_feature)),
+        "patches": int(patches or 0), "min_feature": _length(min_feature), "tolerance": "", "curves": [], "pins": [],
         "mode": _choice(mode, ("robust", "paper"), "mode"),
         "subdivide": _choice(subdivide, ("automatic", "faithful", "compact", "quality"), "subdivide"),
         "threads": int(threads), "seed": int(seed), "max_memory": int(max_memory), "time_limit": float(time_limit),
@@ -108,9 +118,10 @@ def _options(patches: Optional[int], min_feature: Union[str, float], mode: str, 
     }
 
 
-def layout(V: Any, F: Any, patches: Optional[int] = None, *, min_feature: Union[str, float] = "", mode: str = "robust",
-           subdivide: str = "automatic", threads: int = 0, seed: int = 0, max_memory: int = 0, time_limit: float = 0,
-           strict: bool = False, options: Optional[Mapping[str, float]] = None,
+def layout(V: Any, F: Any, patches: Optional[int] = None, *, tolerance: Union[None, str, float] = None,
+           min_feature: Union[None, str, float] = None, curves: Iterable[Any] = (), pins: Any = None,
+           mode: str = "robust", subdivide: str = "automatic", threads: int = 0, seed: int = 0, max_memory: int = 0,
+           time_limit: float = 0, strict: bool = False, options: Optional[Mapping[str, float]] = None,
            progress: Optional[ProgressFunction] = None) -> Layout:
     """A patch layout of a triangle mesh.
 
@@ -118,7 +129,11 @@ def layout(V: Any, F: Any, patches: Optional[int] = None, *, min_feature: Union[
     F            (m, 3) triangles: vertex numbers, counter-clockwise from outside. What is no oriented 2-manifold is
                  mended; `Layout.remarks` says what
     patches      wanted number of patches; None: automatic
-    min_feature  smaller details get no patches: 1.5 (units of V), "2%" (of the diagonal), "4e" (mean edges)
+    tolerance    instead of a number: as few patches as rebuild the surface from their borders so well (RMS), such as
+                 "0.2%" (of the diagonal), 0.01 (units of V) or "0.1e" (mean edges)
+    min_feature  smaller details get no patches: a length of the same forms
+    curves       (p, 3) arrays of points on or near the surface: curves that become borders as they are
+    pins         (m,) regions that stay patches as they are: a number per triangle, negative where it is free
     mode         "robust", or "paper": the letter of Cao, Yan, Wonka 2014
     subdivide    "automatic", "compact", "quality" (nearer to the surface, more winding) or "faithful" (the paper's)
     threads      that compute; 0: every allowed processor. Results do not depend on it
@@ -135,10 +150,14 @@ def layout(V: Any, F: Any, patches: Optional[int] = None, *, min_feature: Union[
     """
     V, F = _positions(V), _triangles(F)
     given = _options(patches, min_feature, mode, subdivide, threads, seed, max_memory, time_limit, strict, options)
+    given["tolerance"] = _length(tolerance)
+    given["curves"] = [_positions(c, "curves").ravel().tolist() for c in curves]
+    if pins is not None:
+        given["pins"] = _labels(pins, "pins").tolist()
     return Layout(_result(_core.layout(V, F, given, progress)))
 
 
-def features(V: Any, F: Any, *, min_feature: Union[str, float] = "", mode: str = "robust", threads: int = 0,
+def features(V: Any, F: Any, *, min_feature: Union[None, str, float] = None, mode: str = "robust", threads: int = 0,
              max_memory: int = 0, strict: bool = False, options: Optional[Mapping[str, float]] = None,
              progress: Optional[ProgressFunction] = None) -> Features:
     """Scale, curvature and extremality of every vertex. Arguments and exceptions as in layout()."""
@@ -180,10 +199,7 @@ def evaluate(V: Any, F: Any, layout: Any, *, samples: int = 1_000_000, triangula
             raise ValueError("smooth is for labels: the curves of a layout are smooth")
         answer = _core.evaluate_layout(V, F, layout, given, progress)
     else:
-        labels = np.asarray(layout)
-        if labels.ndim != 1 or labels.dtype.kind not in "iu":
-            raise ValueError("layout must be what intarsia.layout() returned, or one whole number per triangle")
-        answer = _core.evaluate_labels(V, F, np.ascontiguousarray(labels, dtype=np.int32), given, progress)
+        answer = _core.evaluate_labels(V, F, _labels(layout, "layout, if it is no Layout,"), given, progress)
     value = _result(answer)
     for name in ("triangulated", "transfinite", "filled"):
         value[name] = value[name] and Rebuilt(**value[name])

@@ -9,7 +9,7 @@ from typing import Dict, List, NamedTuple, Optional, Tuple
 import numpy as np
 
 #: Names of the kinds of curves, by number.
-ARC_KINDS = ("ridge", "valley", "sharp", "border", "extension", "subdivision")
+ARC_KINDS = ("ridge", "valley", "sharp", "border", "extension", "subdivision", "given")
 
 
 class Curves(NamedTuple):
