@@ -83,7 +83,7 @@ TEST_CASE("completion: commands, options, values of options") {
   CHECK(complete("intarsia ru") == "run\n");
   CHECK(complete("intarsia fea") == "features\n");
   CHECK(complete("intarsia man") == "\n");
-  CHECK(complete("intarsia run --patch") == "--patches\n");
+  CHECK(complete("intarsia run --pane") == "--panels\n");
   CHECK(complete("intarsia run part.ply --mode ''") == "robust paper\n");
   CHECK(complete("intarsia run part.ply --subdivide q") == "quality\n");
   CHECK(complete("intarsia run intarsia.ba") == "intarsia.bash\n");
