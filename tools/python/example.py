@@ -4,7 +4,7 @@
 # Run it as it is, or cell by cell in an editor that knows `# %%`. It needs matplotlib.
 # Usage: example.py [PICTURE.png] [PATCHES]
 
-# %% A part: a rounded box with a groove, as a height over a sphere of directions.
+# %% A part, made here so that no file is needed.
 import sys
 
 import matplotlib
@@ -36,7 +36,7 @@ def part(n=56):
     V[:, :2] *= np.where(power > 0, square / np.maximum(power, 1e-12), 1)[:, None]
     top = V[:, 2] > 1 - 1e-9
     V[:, 2] = np.where(top, 1 + 0.5 * np.clip((0.62 - np.hypot(V[:, 0], V[:, 1])) / 0.18, 0, 1), V[:, 2])
-    return V * [1.6, 1.0, 0.5], F
+    return V * [1.3, 0.9, 0.5], F
 
 
 V, F = part()
@@ -70,8 +70,8 @@ def draw(axes, V, F, colour, title):
     light = 0.55 + 0.45 * np.clip(normal @ (np.array([0.3, -0.5, 0.8]) / np.linalg.norm([0.3, -0.5, 0.8])), 0, 1)
     colour = np.column_stack([colour[:, :3] * light[:, None], np.ones(len(F))])
     axes.add_collection3d(Poly3DCollection(V[F], facecolors=colour, edgecolors=colour, linewidths=0.2))
-    axes.set_xlim(-1.2, 1.2), axes.set_ylim(-1.2, 1.2), axes.set_zlim(-0.9, 1.1)
-    axes.set_box_aspect((1, 1, 2 / 2.4), zoom=1.5)
+    axes.set_xlim(-1.3, 1.3), axes.set_ylim(-1.3, 1.3), axes.set_zlim(-0.7, 0.9)
+    axes.set_box_aspect((2.6, 2.6, 1.6), zoom=1.35)
     axes.view_init(32, -58), axes.set_axis_off(), axes.set_title(title)
 
 
@@ -79,13 +79,24 @@ def colours(values, name, low, high):
     return matplotlib.colormaps[name](np.clip((values - low) / (high - low), 0, 1))
 
 
-figure = plt.figure(figsize=(12, 3.8))
+figure = plt.figure(figsize=(12, 3.4))
 axes = [figure.add_subplot(1, 3, i + 1, projection="3d") for i in range(3)]
 draw(axes[0], r.vertices, r.triangles, matplotlib.colormaps["tab20"](r.triangle_patch % 20),
      f"{len(r.patches)} patches")
-nodes, edges, arc, kind = r.curves
-toward = np.array([0.45, -0.72, 0.53])  # the viewer: lines are lifted towards it, or faces would hide them
-axes[0].add_collection3d(Line3DCollection(nodes[edges] + 0.02 * toward, colors="black", linewidths=1.0))
+# Lines that face the viewer, lifted towards it: matplotlib does not know what hides what.
+toward = np.array([0.45, -0.72, 0.53])
+normals = np.zeros_like(r.vertices)
+for corner in range(3):
+    a, b, c = (r.vertices[r.triangles[:, (corner + i) % 3]] for i in range(3))
+    np.add.at(normals, r.triangles[:, corner], np.cross(b - a, c - a))
+segments = []
+for arc in range(len(r.arcs)):
+    v = r.arc_vertices(arc)
+    seen = (normals[v[:-1]] + normals[v[1:]]) @ toward > 0
+    points = r.vertices[v] + 0.02 * toward
+    segments.append(np.stack([points[:-1], points[1:]], axis=1)[seen])
+axes[0].computed_zorder = False
+axes[0].add_collection3d(Line3DCollection(np.vstack(segments), colors="black", linewidths=1.2, zorder=2))
 k = np.abs(np.where(np.abs(f.kmax) > np.abs(f.kmin), f.kmax, f.kmin))[F].mean(axis=1)
 draw(axes[1], V, F, colours(k, "magma", 0, np.quantile(k, 0.98)), "largest curvature")
 draw(axes[2], V, F, colours(d.triangle_rms, "viridis", 0, d.triangle_rms.max()), "distance of the rebuilt surface")

@@ -1,4 +1,4 @@
-// intarsia._core: the library's calls with NumPy arrays. The package around it (intarsia/__init__.py) checks arguments,
+// intarsia._core: the library's calls with NumPy arrays. The package around it (package/__init__.py) checks arguments,
 // raises exceptions and gives names; nothing else should import this.
 #include <algorithm>
 #include <memory>
