@@ -115,7 +115,7 @@ TEST_CASE("obj: a group and a material for each patch, polylines for the arcs") 
     if (!line.empty() && line[0] == "newmtl") with = line[1];
     if (!line.empty() && line[0] == "Kd") kd[with] = place(line, 1);
   }
-  CHECK(kd.size() == 12);
+  CHECK(kd.size() == 13);
   CHECK((kd["patch_5"] - Vec3(1, 5 / 255., 100 / 255.)).norm() < 1e-4);
   CHECK(kd.contains("sharp"));
   // The program's own reader, through OpenMesh, sees the same triangles.
