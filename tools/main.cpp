@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
   add_run_command(app, exit_code);
   add_batch_command(app, exit_code);
   add_convert_command(app, exit_code);
+  add_step_command(app, exit_code);
   add_view_command(app, exit_code);
   add_render_command(app, exit_code);
   add_features_command(app, exit_code);

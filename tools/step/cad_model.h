@@ -1,0 +1,42 @@
+// A layout as faces, edges and vertices that share each other: what a STEP file holds, in plain numbers.
+#pragma once
+
+#include <vector>
+
+#include "tools/step/spline.h"
+
+namespace intarsia::tools {
+
+struct CadVertex {
+  Vec3 point;
+  Real tolerance = 0;  // the ends of its edges, and their places on the faces, are within
+};
+
+struct CadEdge {
+  Index start = 0, end = 0;  // vertices; a closed edge begins and ends in one
+  SplineCurve<Vec3> curve;   // from start to end exactly
+  bool is_line = false;
+  Real deviation = 0;  // of the curve from the points it was fitted to
+  Real tolerance = 0;  // of its curves on the faces from it
+};
+
+// An edge as part of a face's border.
+struct CadSide {
+  Index edge = 0;
+  bool forward = true;
+  SplineCurve<Vec2> curve;  // on the face, over the parameters of the edge's curve
+};
+
+struct CadFace {
+  Index patch = 0;
+  FaceSurface surface;                      // its normal points outwards
+  std::vector<std::vector<CadSide>> loops;  // the face on their left, the outer one first
+};
+
+struct CadModel {
+  std::vector<CadVertex> vertex;
+  std::vector<CadEdge> edge;
+  std::vector<CadFace> face;
+};
+
+}  // namespace intarsia::tools
