@@ -15,8 +15,10 @@
 #include "tools/interrupt.h"
 #include "tools/read_layout.h"
 #include "tools/report.h"
+#include "tools/step/cad_shape.h"
 #include "tools/step/fit_layout.h"
 #include "tools/step/measure_model.h"
+#include "tools/step/triangulate_model.h"
 
 namespace intarsia::tools {
 namespace {
@@ -71,15 +73,12 @@ Real tolerance_of(const StepFlags& flags, const LayoutFromFile& layout) {
   return tolerance;
 }
 
-Vec3Array to_unit(const Work& work, const CadTriangles& t, const kernels::BoxTransform& box) {
-  Vec3Array out(t.x.size());
-  for_each(work, Cost::light, t.x.size(), [&](std::size_t i) { out.set(i, box.to_unit({t.x[i], t.y[i], t.z[i]})); });
-  return out;
-}
-
-void write_triangles(const Work& work, const std::string& path, const CadTriangles& t, const CadModel& model) {
+void write_triangles(const Work& work, const std::string& path, const ModelTriangles& t, const CadModel& model,
+                     const kernels::BoxTransform& box) {
+  Vec3Array point(t.x.size());
+  for_each(work, Cost::light, t.x.size(), [&](std::size_t i) { point.set(i, box.to_input({t.x[i], t.y[i], t.z[i]})); });
   PlyFile ply;
-  ply.element("vertex", t.x.size()).xyz<double>(t.x, t.y, t.z);
+  ply.element("vertex", t.x.size()).xyz<double>(point.x, point.y, point.z);
   ply.element("face", t.face.size()).triangles(t.corner).column<std::int32_t>("patch", [&](std::size_t i) {
     return model.face[t.face[i]].patch;
   });
@@ -114,13 +113,17 @@ Made make(const Work& work, const StepFlags& flags, const LayoutFromFile& layout
   made.check = shape.check();
   work.check();
   made.fineness = made.tolerance / 20;
-  const CadTriangles triangles = shape.triangulate(made.fineness * made.diagonal);
-  if (!triangles.empty.empty()) made.check.trouble += " (faces without triangles)", made.check.valid = false;
-  const Vec3Array unit = to_unit(work, triangles, layout.box);
+  const CadTriangles coarse = shape.triangulate(made.tolerance * made.diagonal);
+  if (!coarse.empty.empty())
+    made.check.trouble += fmt::format("{}{} faces that it cannot triangulate", made.check.trouble.empty() ? "" : ", ",
+                                      coarse.empty.size()),
+        made.check.valid = false;
+  const ModelTriangles triangles = triangulate_model(work, made.fit.layout, model, made.fineness);
   const Mesh& mesh = layout.refined.mesh;
   made.deviation = measure_model(work, {Vec3View{mesh.x, mesh.y, mesh.z}, mesh.corner}, layout.label, made.patch_face,
-                                 {unit, triangles.corner}, triangles.face, static_cast<Index>(model.face.size()));
-  if (!flags.triangles.empty()) write_triangles(work, flags.triangles, triangles, model);
+                                 {Vec3View{triangles.x, triangles.y, triangles.z}, triangles.corner}, triangles.face,
+                                 static_cast<Index>(model.face.size()));
+  if (!flags.triangles.empty()) write_triangles(work, flags.triangles, triangles, model, layout.box);
   made.step = shape.step_text(name, unit_of(flags.unit), "Intarsia " INTARSIA_VERSION);
   made.build_seconds = seconds_since(built);
   return made;

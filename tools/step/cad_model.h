@@ -1,6 +1,7 @@
 // A layout as faces, edges and vertices that share each other: what a STEP file holds, in plain numbers.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "tools/step/spline.h"
@@ -20,11 +21,20 @@ struct CadEdge {
   Real tolerance = 0;  // of its curves on the faces from it
 };
 
-// An edge as part of a face's border.
+// An edge as part of a face's border: its image on the face, over the parameters of the edge's curve.
 struct CadSide {
   Index edge = 0;
   bool forward = true;
-  SplineCurve<Vec2> curve;  // on the face, over the parameters of the edge's curve
+  SplineCurve<Vec2> curve;
+  std::vector<Real> knot;  // with `corner`: a polyline instead of the curve, for what would cross itself otherwise
+  std::vector<Vec2> corner;
+
+  Vec2 at(Real t) const {
+    if (corner.empty()) return curve.at(t);
+    const auto next = std::upper_bound(knot.begin() + 1, knot.end() - 1, t) - knot.begin();
+    const Real s = (t - knot[next - 1]) / (knot[next] - knot[next - 1]);
+    return (1 - s) * corner[next - 1] + s * corner[next];
+  }
 };
 
 struct CadFace {

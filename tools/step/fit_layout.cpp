@@ -20,22 +20,30 @@ LayoutFit fit_layout(const Work& work, const MeshView& mesh, std::span<const Ind
                    [&](Index a, Index b) { return pieces.faces_of(a) > pieces.faces_of(b); });
 
   FitLimits limits;
-  limits.inside = 0.6 * tolerance, limits.border = 0.3 * tolerance, limits.plane = 0.25 * tolerance;
+  limits.inside = 0.75 * tolerance, limits.border = 0.3 * tolerance, limits.plane = 0.25 * tolerance;
   for_each(work, Cost::single, order.size(), [&](std::size_t i) {
     const Index p = order[i];
     layout.piece[p] = pieces.piece(p);
     layout.face[p] = fit_face(layout.piece[p], limits);
   });
   EdgeLimits edges;
-  edges.move = 0.5 * tolerance, edges.curve = 0.1 * tolerance;
-  fit.model = share_edges(work, layout, edges);
-  limits.border = 0.1 * tolerance;
-  for_each(work, Cost::single, order.size(), [&](std::size_t i) {
-    const Index p = order[i];
-    if (layout.face[p].done && !layout.face[p].surface.is_plane)
-      fit_again(layout.piece[p], guides_of(layout, fit.model, p), limits, layout.face[p]);
-  });
-  add_faces(work, layout, edges, fit.model);
+  edges.move = 0.5 * tolerance, edges.curve = 0.15 * tolerance;
+  limits.border = 0.2 * tolerance;
+  EdgeFreedom freedom(graph);
+  constexpr int kRounds = 6;
+  for (int round = 0; round < kRounds; ++round) {
+    share_edges(work, layout, edges, freedom, fit.model);
+    for_each(work, Cost::single, order.size(), [&](std::size_t i) {
+      const Index p = order[i];
+      bool stale = false;
+      for (const PatchPiece::Loop& l : layout.piece[p].loop)
+        for (const PatchPiece::Side& s : l.side) stale = stale || freedom.stale[s.half_arc / 2];
+      if (stale && layout.face[p].done && !layout.face[p].surface.is_plane)
+        fit_again(layout.piece[p], guides_of(layout, fit.model, p), limits, layout.face[p]);
+    });
+    add_faces(work, layout, edges, freedom, fit.model);
+    if (stiffen_crossings(work, fit.model, freedom) == 0) break;
+  }
   return fit;
 }
 

@@ -5,7 +5,6 @@
 
 #include "engine/parallel/work.h"
 #include "kernels/quality/surface_distance.h"
-#include "tools/step/cad_shape.h"
 
 namespace intarsia::tools {
 

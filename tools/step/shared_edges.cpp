@@ -10,6 +10,8 @@
 namespace intarsia::tools {
 namespace {
 
+constexpr int kLeastSamples = 24;
+
 // Where a half-arc is in its patch.
 struct Place {
   Index patch = kNone;
@@ -86,7 +88,7 @@ ArcSamples sample(const FittedLayout& layout, const std::vector<Place>& place, I
   };
   for (std::size_t i = 0; i + 1 < point.size(); ++i) {
     const Real step = (point[i + 1] - point[i]).norm();
-    const int n = std::max(1, static_cast<int>(std::ceil(step / length * least)));
+    const int n = std::max(3, static_cast<int>(std::ceil(step / length * least)));
     for (int m = 0; m < n; ++m) add(i, static_cast<Real>(m) / n);
   }
   add(point.size() - 1, 0);
@@ -106,7 +108,20 @@ Real farthest(const SplineCurve<Point>& curve, std::span<const Real> t, std::spa
   return most;
 }
 
-// More spans until the points are met; never more spans than half the points.
+// At equal steps along the points.
+ArcSamples even(const ArcSamples& samples, int steps) {
+  ArcSamples out;
+  std::size_t at = 0;
+  for (int i = 0; i <= steps; ++i) {
+    const Real t = samples.t.back() * i / steps;
+    while (at + 2 < samples.t.size() && samples.t[at + 1] < t) ++at;
+    const Real s = std::clamp((t - samples.t[at]) / (samples.t[at + 1] - samples.t[at]), 0.0, 1.0);
+    out.t.push_back(t), out.point.push_back((1 - s) * samples.point[at] + s * samples.point[at + 1]);
+  }
+  return out;
+}
+
+// More spans until the points are met; never more spans than points.
 CadEdge fit_edge(const ArcSamples& samples, Real limit) {
   CadEdge edge;
   const Vec3 &a = samples.point.front(), &b = samples.point.back();
@@ -122,10 +137,12 @@ CadEdge fit_edge(const ArcSamples& samples, Real limit) {
     for (int i = -1; i <= 2; ++i) edge.curve.control.push_back(a + i * (b - a));
     return edge;
   }
-  const int most = std::max(1, static_cast<int>(samples.t.size()) / 2);
+  const int most = static_cast<int>(samples.t.size());
   for (int spans = 1;; spans = std::min(most, spans + (spans + 1) / 2)) {
-    edge.curve = fit_curve(samples.t, std::span<const Vec3>(samples.point), spans);
-    edge.deviation = farthest<Vec3>(edge.curve, samples.t, samples.point);
+    const ArcSamples steps = even(samples, std::max(8 * spans, kLeastSamples));
+    edge.curve = fit_curve(steps.t, std::span<const Vec3>(steps.point), spans);
+    edge.deviation = std::max(farthest<Vec3>(edge.curve, steps.t, steps.point),
+                              farthest<Vec3>(edge.curve, samples.t, samples.point));
     if (edge.deviation <= limit || spans >= most) return edge;
   }
 }
@@ -154,19 +171,18 @@ std::vector<Vec2> feet(const FaceSurface& surface, const CadEdge& edge, std::spa
   return out;
 }
 
-constexpr int kLeastSamples = 24;
-
 }  // namespace
 
-CadModel share_edges(const Work& work, const FittedLayout& layout, const EdgeLimits& limits) {
+void share_edges(const Work& work, const FittedLayout& layout, const EdgeLimits& limits, const EdgeFreedom& freedom,
+                 CadModel& model) {
   const LayoutGraph& graph = *layout.graph;
   const std::vector<Place> place = places_of(layout);
-  CadModel model;
   model.vertex.resize(graph.node_count());
   model.edge.resize(graph.arc_count());
   // Corners: every half-arc tells its start.
   std::vector<std::vector<OnFace>> around(graph.node_count());
-  std::vector<std::uint8_t> seen(graph.node_count(), 0);
+  std::vector<Vec3> node_point(graph.node_count(), Vec3::Zero());
+  std::vector<std::uint8_t> stale(graph.node_count(), 0);
   for (Index h = 0; h < place.size(); ++h) {
     if (place[h].patch == kNone || !layout.face[place[h].patch].done) continue;
     const PatchPiece& piece = layout.piece[place[h].patch];
@@ -175,30 +191,49 @@ CadModel share_edges(const Work& work, const FittedLayout& layout, const EdgeLim
     const Index i = loop.point[loop.side[place[h].side].begin];
     const Index node = h % 2 ? graph.end[h / 2] : graph.start[h / 2];
     around[node].push_back({&face.surface, face.uv[i]});
-    model.vertex[node].point = piece.point[i], seen[node] = 1;
+    node_point[node] = piece.point[i];
   }
+  // A node moves once only: what ends there and is not stale stays.
+  for (Index a = 0; a < graph.arc_count(); ++a)
+    if (freedom.stale[a])
+      for (const Index n : {graph.start[a], graph.end[a]}) stale[n] = 1;
+  for (Index a = 0; a < graph.arc_count(); ++a)
+    if (!freedom.stale[a])
+      for (const Index n : {graph.start[a], graph.end[a]}) stale[n] = 0;
   for_each(work, Cost::heavy, around.size(), [&](std::size_t n) {
-    if (seen[n]) model.vertex[n].point = where_faces_meet(model.vertex[n].point, around[n], limits.move);
+    if (around[n].empty() || !stale[n]) return;
+    model.vertex[n].point =
+        freedom.node[n] == Freedom::none ? node_point[n] : where_faces_meet(node_point[n], around[n], limits.move);
   });
   for_each(work, Cost::single, graph.arc_count(), [&](std::size_t i) {
     const Index arc = static_cast<Index>(i);
+    if (!freedom.stale[arc]) return;
     CadEdge& edge = model.edge[arc];
     edge.start = graph.start[arc], edge.end = graph.end[arc];
     ArcSamples samples = sample(layout, place, arc, kLeastSamples);
     if (samples.point.empty()) return;
-    for (std::size_t k = 0; k < samples.point.size(); ++k) {
-      std::vector<OnFace> on;
-      for (int side = 0; side < 2; ++side)
-        if (!samples.uv[side].empty())
-          on.push_back({&layout.face[place[2 * arc + side].patch].surface, samples.uv[side][k]});
-      samples.point[k] = where_faces_meet(samples.point[k], on, limits.move);
-    }
-    samples.point.front() = model.vertex[edge.start].point, samples.point.back() = model.vertex[edge.end].point;
     measure_along(samples);
-    edge = fit_edge(samples, limits.curve);
+    const std::vector<Real> along = samples.t;
+    const Vec3 at_start = model.vertex[edge.start].point - samples.point.front();
+    const Vec3 at_end = model.vertex[edge.end].point - samples.point.back();
+    const Real reach = std::min(4 * limits.move, along.back() / 2);
+    for (std::size_t k = 0; k < samples.point.size(); ++k) {
+      // 1 at the end, 0 where the arc is on its own.
+      const Real s = 1 - std::min(along[k], reach) / reach, e = 1 - std::min(along.back() - along[k], reach) / reach;
+      Vec3 moved = Vec3::Zero();
+      if (freedom.arc[arc] == Freedom::full) {
+        std::vector<OnFace> on;
+        for (int side = 0; side < 2; ++side)
+          if (!samples.uv[side].empty())
+            on.push_back({&layout.face[place[2 * arc + side].patch].surface, samples.uv[side][k]});
+        moved = where_faces_meet(samples.point[k], on, limits.move) - samples.point[k];
+      }
+      samples.point[k] += s * at_start + e * at_end + (1 - s) * (1 - e) * moved;
+    }
+    measure_along(samples);
+    edge = fit_edge(samples, freedom.arc[arc] == Freedom::full ? limits.curve : 0.1 * limits.curve);
     edge.start = graph.start[arc], edge.end = graph.end[arc];
   });
-  return model;
 }
 
 std::vector<BorderGuide> guides_of(const FittedLayout& layout, const CadModel& model, Index patch) {
@@ -219,7 +254,20 @@ std::vector<BorderGuide> guides_of(const FittedLayout& layout, const CadModel& m
   return out;
 }
 
-void add_faces(const Work& work, const FittedLayout& layout, const EdgeLimits& limits, CadModel& model) {
+namespace {
+
+// Whether the ends of the edge, seen on a plane, are the corners at which the face has them.
+bool corners_agree(const CadEdge& edge, const FaceSurface& plane, bool forward, std::span<const Vec2> corner,
+                   std::size_t side) {
+  const Vec2 &from = corner[side], &to = corner[(side + 1) % corner.size()];
+  const Vec2 a = plane.nearest(edge.curve.at(0), from), b = plane.nearest(edge.curve.at(edge.curve.length), to);
+  return (a - (forward ? from : to)).norm() + (b - (forward ? to : from)).norm() < 1e-9;
+}
+
+}  // namespace
+
+void add_faces(const Work& work, const FittedLayout& layout, const EdgeLimits& limits, const EdgeFreedom& freedom,
+               CadModel& model) {
   const std::vector<Place> place = places_of(layout);
   std::vector<Real> gap(place.size(), 0);
   std::vector<CadFace> face(layout.piece.size());
@@ -232,16 +280,30 @@ void add_faces(const Work& work, const FittedLayout& layout, const EdgeLimits& l
       std::vector<CadSide> sides;
       // The corner of a face is one place, whichever of its two sides it is seen from.
       std::vector<Vec2> corner;
-      for (const PatchPiece::Side& s : loop.side) {
+      const auto is_polyline = [&](const PatchPiece::Side& s) {
+        return freedom.arc[s.half_arc / 2] == Freedom::polyline;
+      };
+      for (std::size_t i = 0; i < loop.side.size(); ++i) {
+        const PatchPiece::Side& s = loop.side[i];
         const Index node = s.half_arc % 2 ? layout.graph->end[s.half_arc / 2] : layout.graph->start[s.half_arc / 2];
-        corner.push_back(surface.nearest(model.vertex[node].point, layout.face[p].uv[loop.point[s.begin]], 12));
+        const Vec2 flat = layout.face[p].uv[loop.point[s.begin]];
+        const bool stiff = is_polyline(s) || is_polyline(loop.side[(i + loop.side.size() - 1) % loop.side.size()]);
+        corner.push_back(stiff ? flat : surface.nearest(model.vertex[node].point, flat, 12));
       }
       for (std::size_t i = 0; i < loop.side.size(); ++i) {
         const Index half = loop.side[i].half_arc;
         const CadEdge& edge = model.edge[half / 2];
-        CadSide side{half / 2, half % 2 == 0, {}};
+        CadSide side{half / 2, half % 2 == 0, {}, {}, {}};
         std::vector<Real> t = parameters(edge, 48);
-        if (surface.is_plane) {
+        if (is_polyline(loop.side[i])) {
+          ArcSamples samples = sample(layout, place, half / 2, kLeastSamples);
+          measure_along(samples);
+          const Real scale = edge.curve.length / samples.t.back();
+          for (std::size_t k = 0; k < samples.t.size(); ++k) {
+            side.knot.push_back(k + 1 == samples.t.size() ? edge.curve.length : scale * samples.t[k]);
+            side.corner.push_back(samples.uv[half % 2][k]);
+          }
+        } else if (surface.is_plane && corners_agree(edge, surface, side.forward, corner, i)) {
           side.curve.length = edge.curve.length;
           for (const Vec3& c : edge.curve.control) side.curve.control.push_back(surface.nearest(c, Vec2::Zero()));
         } else {
@@ -257,27 +319,29 @@ void add_faces(const Work& work, const FittedLayout& layout, const EdgeLimits& l
           for (int spans = std::max(2, edge.curve.spans());; spans = std::min(most, 2 * spans)) {
             side.curve = fit_curve(t, std::span<const Vec2>(uv), std::min(spans, most));
             Real worst = 0;
-            for (const Real x : t)
-              worst = std::max(worst, (surface.at(side.curve.at(x)).point - edge.curve.at(x)).norm());
+            for (const Real x : t) worst = std::max(worst, (surface.at(side.at(x)).point - edge.curve.at(x)).norm());
             if (worst <= least + 0.2 * limits.curve || spans >= most) break;
           }
         }
         const int fine = 4 * static_cast<int>(t.size());
         for (int k = 0; k <= fine; ++k) {
           const Real x = edge.curve.length * k / fine;
-          gap[half] = std::max(gap[half], (surface.at(side.curve.at(x)).point - edge.curve.at(x)).norm());
+          gap[half] = std::max(gap[half], (surface.at(side.at(x)).point - edge.curve.at(x)).norm());
         }
         sides.push_back(std::move(side));
       }
       face[p].loops.push_back(std::move(sides));
     }
   });
+  for (CadEdge& e : model.edge) e.tolerance = 0;
+  for (CadVertex& v : model.vertex) v.tolerance = 0;
   for (Index h = 0; h < place.size(); ++h) {
     CadEdge& edge = model.edge[h / 2];
     edge.tolerance = std::max(edge.tolerance, gap[h]);
     for (const Index v : {edge.start, edge.end})
       model.vertex[v].tolerance = std::max(model.vertex[v].tolerance, edge.tolerance);
   }
+  model.face.clear();
   for (CadFace& f : face)
     if (!f.loops.empty()) model.face.push_back(std::move(f));
 }

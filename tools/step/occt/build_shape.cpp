@@ -106,6 +106,18 @@ class Builder {
   }
 
   Handle(Geom2d_Curve) make_image(const CadSide& side) const {
+    if (!side.corner.empty()) {
+      const int n = static_cast<int>(side.corner.size());
+      TColgp_Array1OfPnt2d corners(1, n);
+      TColStd_Array1OfReal knot(1, n);
+      TColStd_Array1OfInteger multiplicity(1, n);
+      for (int i = 0; i < n; ++i) {
+        corners(i + 1) = gp_Pnt2d(scale_ * side.corner[i].x(), scale_ * side.corner[i].y());
+        knot(i + 1) = scale_ * side.knot[i];
+        multiplicity(i + 1) = i == 0 || i + 1 == n ? 2 : 1;
+      }
+      return new Geom2d_BSplineCurve(corners, knot, multiplicity, 1);
+    }
     const std::vector<Vec2> control = side.curve.clamped();
     TColgp_Array1OfPnt2d poles(1, static_cast<int>(control.size()));
     for (std::size_t i = 0; i < control.size(); ++i)
@@ -135,7 +147,7 @@ class Builder {
           builder_.UpdateEdge(edge, image, surface, here, edge_tolerance);
         else if (side.forward)
           builder_.UpdateEdge(edge, image, make_image(*twin), surface, here, edge_tolerance);
-        builder_.Range(edge, surface, here, 0, scale_ * side.curve.length);
+        builder_.Range(edge, surface, here, 0, scale_ * model_.edge[side.edge].curve.length);
         builder_.SameRange(edge, Standard_True);
         builder_.SameParameter(edge, Standard_True);
         builder_.Add(wire, edge.Oriented(side.forward ? TopAbs_FORWARD : TopAbs_REVERSED));
