@@ -35,8 +35,10 @@ struct StepFlags {
 
 const std::vector<std::string> kUnits = {"mm", "cm", "m", "in"};
 
-CadUnit unit_of(const std::string& name) {
-  return static_cast<CadUnit>(std::find(kUnits.begin(), kUnits.end(), name) - kUnits.begin());
+constexpr Real kMillimetres[] = {1, 10, 1000, 25.4};
+
+std::size_t unit_of(const std::string& name) {
+  return static_cast<std::size_t>(std::find(kUnits.begin(), kUnits.end(), name) - kUnits.begin());
 }
 
 struct Made {
@@ -108,12 +110,15 @@ Made make(const Work& work, const StepFlags& flags, const LayoutFromFile& layout
     made.border_arcs += l == kNone || r == kNone ? 1 : 0;
   }
   if (made.border_arcs == 0) made.mesh_volume = volume_of(layout.refined.mesh);
-  const CadShape shape(model, layout.box.centre, made.diagonal);
+  const std::size_t unit = unit_of(flags.unit);
+  const Real mm = kMillimetres[unit];
+  const CadShape shape(model, mm * layout.box.centre, mm * made.diagonal);
   work.check();
   made.check = shape.check();
+  made.check.area /= mm * mm, made.check.volume /= mm * mm * mm;
   work.check();
   made.fineness = made.tolerance / 20;
-  const CadTriangles coarse = shape.triangulate(made.tolerance * made.diagonal);
+  const CadTriangles coarse = shape.triangulate(mm * made.tolerance * made.diagonal);
   if (!coarse.empty.empty())
     made.check.trouble += fmt::format("{}{} faces that it cannot triangulate", made.check.trouble.empty() ? "" : ", ",
                                       coarse.empty.size()),
@@ -124,7 +129,7 @@ Made make(const Work& work, const StepFlags& flags, const LayoutFromFile& layout
                                  {Vec3View{triangles.x, triangles.y, triangles.z}, triangles.corner}, triangles.face,
                                  static_cast<Index>(model.face.size()));
   if (!flags.triangles.empty()) write_triangles(work, flags.triangles, triangles, model, layout.box);
-  made.step = shape.step_text(name, unit_of(flags.unit), "Intarsia " INTARSIA_VERSION);
+  made.step = shape.step_text(name, static_cast<CadUnit>(unit), "Intarsia " INTARSIA_VERSION);
   made.build_seconds = seconds_since(built);
   return made;
 }

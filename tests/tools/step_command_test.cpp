@@ -13,9 +13,9 @@ TEST_CASE("step: without OpenCASCADE it says what to install, with it the layout
   const auto intarsia = [&](std::vector<std::string> arguments) {
     return test::run_program(INTARSIA_PROGRAM, arguments, dir);
   };
-  REQUIRE(intarsia({"make", "rounded-box", "--triangles", "4000", "-o", dir / "box.ply", "-q"}).status == kExitDone);
+  REQUIRE(intarsia({"make", "rounded-box", "--triangles", "6000", "-o", dir / "box.ply", "-q"}).status == kExitDone);
   REQUIRE(intarsia({"run", dir / "box.ply", "-o", dir / "out", "-q", "--write", "none"}).status == kExitDone);
-  const auto done = intarsia({"step", dir / "out", "-o", dir / "box.step", "-t", "2"});
+  const auto done = intarsia({"step", dir / "out", "-o", dir / "box.step", "-t", "2", "--tolerance", "0.5%"});
   INFO(done.err);
 #ifndef INTARSIA_HAS_OPENCASCADE
   MESSAGE("OpenCASCADE is not installed (tools/setup --step): skipped");
@@ -31,7 +31,7 @@ TEST_CASE("step: without OpenCASCADE it says what to install, with it the layout
   CHECK(report["shells"] == 1);
   CHECK(report["faces"] == report["patches"]);
   CHECK(report["face_table"].size() == report["patches"]);
-  CHECK(report["deviation"]["largest"]["percent"].get<double>() <= 0.2);
+  CHECK(report["deviation"]["largest"]["percent"].get<double>() <= 0.5);
   const double tolerance = report["tolerance"]["absolute"], area = report["area"];
   CHECK(std::abs(report["volume"].get<double>() - report["mesh_volume"].get<double>()) <= tolerance * area);
   for (const auto& row : report["face_table"]) CHECK(row["within"] == true);
@@ -52,18 +52,20 @@ TEST_CASE("step: without OpenCASCADE it says what to install, with it the layout
 
   // The same bytes with one thread; another unit is another name, the numbers stay.
   std::filesystem::create_directory(dir / "again");
-  REQUIRE(intarsia({"step", dir / "out", "-o", dir / "again/box.step", "-t", "1", "-q"}).status == kExitDone);
+  REQUIRE(
+      intarsia({"step", dir / "out", "-o", dir / "again/box.step", "-t", "1", "-q", "--tolerance", "0.5%"}).status ==
+      kExitDone);
   CHECK(test::file_text(dir / "again/box.step") == text);
-  REQUIRE(intarsia({"step", dir / "out", "-o", dir / "again/box.step", "--unit", "m", "-q"}).status == kExitDone);
+  REQUIRE(intarsia({"step", dir / "out", "-o", dir / "again/box.step", "--unit", "m", "-q", "--tolerance", "0.5%"})
+              .status == kExitDone);
   const std::string metres = test::file_text(dir / "again/box.step");
   CHECK(text.find("SI_UNIT(.MILLI.,.METRE.)") != std::string::npos);
   CHECK(metres.find("SI_UNIT($,.METRE.)") != std::string::npos);
-  const auto first_point = [](const std::string& t) {
-    const std::size_t at = t.find("VERTEX_POINT");
-    const std::size_t point = t.find("CARTESIAN_POINT", at);
-    return t.substr(point, t.find(';', point) - point);
+  const auto first_coordinate = [](const std::string& t) {
+    const std::size_t point = t.find("CARTESIAN_POINT('',(", t.find("VERTEX_POINT"));
+    return std::stod(t.substr(point + 20));
   };
-  CHECK(first_point(text) == first_point(metres));
+  CHECK(first_coordinate(text) == doctest::Approx(first_coordinate(metres)).epsilon(1e-9));
 
   CHECK(intarsia({"step", dir / "out", "--tolerance", "50%"}).status == kExitUsage);
   CHECK(intarsia({"step", dir / "box.ply"}).status == kExitUnreadable);

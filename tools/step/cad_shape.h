@@ -30,6 +30,7 @@ struct CadTriangles {
 
 enum class CadUnit { millimetre, centimetre, metre, inch };
 
+// Lengths are millimetres, as everywhere in that library.
 class CadShape {
  public:
   // Positions become centre + scale * position, parameters and tolerances scale * theirs. Faces that share edges make
@@ -44,8 +45,7 @@ class CadShape {
   CadCheck check() const;
   // No edge of a triangle is farther than about `deflection` from the face or edge it stands for.
   CadTriangles triangulate(Real deflection) const;
-  // The text of a STEP file (AP214). unit: what the numbers are; they are written as they are. No date: the time stamp
-  // is always the same. Not thread-safe (the library's settings are global). Errors: internal.
+  // The text of a STEP file (AP214) with lengths in that unit. No date: the time stamp is always the same. Not thread-safe (the library's settings are global). Errors: internal.
   std::string step_text(const std::string& name, CadUnit unit, const std::string& version) const;
 
  private:

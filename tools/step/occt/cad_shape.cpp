@@ -1,5 +1,7 @@
 #include "tools/step/cad_shape.h"
 
+#include <algorithm>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -16,6 +18,7 @@
 #include <Message_Messenger.hxx>
 #include <Message_PrinterOStream.hxx>
 #include <Poly_Triangulation.hxx>
+#include <STEPControl_Controller.hxx>
 #include <STEPControl_Reader.hxx>
 #include <STEPControl_Writer.hxx>
 #include <Standard_Failure.hxx>
@@ -92,6 +95,23 @@ Index count_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
   return static_cast<Index>(map.Extent());
 }
 
+struct EdgeLengths {
+  Real largest_tolerance = 0, shortest_edge = std::numeric_limits<Real>::infinity();
+};
+
+EdgeLengths lengths_of(const TopoDS_Shape& shape) {
+  EdgeLengths out;
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  for (int i = 1; i <= edges.Extent(); ++i) {
+    GProp_GProps properties;
+    BRepGProp::LinearProperties(edges(i), properties);
+    out.shortest_edge = std::min(out.shortest_edge, properties.Mass());
+    out.largest_tolerance = std::max(out.largest_tolerance, BRep_Tool::Tolerance(TopoDS::Edge(edges(i))));
+  }
+  return out;
+}
+
 }  // namespace
 
 CadShape::CadShape() : impl_(std::make_unique<Impl>()) {}
@@ -113,7 +133,6 @@ CadShape CadShape::read_step(const std::filesystem::path& path) {
   be_quiet();
   CadShape out;
   STEPControl_Reader reader;
-  Interface_Static::SetCVal("xstep.cascade.unit", "MM");
   if (reader.ReadFile(path.string().c_str()) != IFSelect_RetDone || reader.TransferRoots() < 1)
     throw Error(ErrorCode::bad_file, path.string() + ": OpenCASCADE cannot read it");
   out.impl_->shape = reader.OneShape();
@@ -197,11 +216,13 @@ std::string CadShape::step_text(const std::string& name, CadUnit unit, const std
   be_quiet();
   constexpr const char* kUnits[] = {"MM", "CM", "M", "INCH"};
   const char* unit_name = kUnits[static_cast<std::size_t>(unit)];
-  STEPControl_Writer writer;
-  Interface_Static::SetCVal("xstep.cascade.unit", unit_name);
+  STEPControl_Controller::Init();
   Interface_Static::SetCVal("write.step.unit", unit_name);
+  STEPControl_Writer writer;
   Interface_Static::SetCVal("write.step.product.name", name.c_str());
-  Interface_Static::SetIVal("write.precision.mode", 1);  // the largest tolerance of the shape
+  // The file's uncertainty: readers drop edges that are shorter.
+  const EdgeLengths lengths = lengths_of(impl_->shape);
+  writer.SetTolerance(std::max(std::min(lengths.largest_tolerance, lengths.shortest_edge / 20), 1e-7));
   if (writer.Transfer(impl_->shape, STEPControl_AsIs) != IFSelect_RetDone)
     throw Error(ErrorCode::internal, "OpenCASCADE could not translate the model to STEP");
   const Handle(StepData_StepModel) model = writer.Model();
