@@ -159,7 +159,8 @@ VsaFit fit_planes(const Work& work, const FaceGraph& graph, const VsaOptions& op
   const BallGraph balls = coarse ? gather_balls(work, graph, size) : BallGraph{};
   const FaceGraph& start = coarse ? balls.graph : graph;
   const PatchLabels pieces = connected_pieces(start);
-  std::vector<Search> search(starts, Search(work, start, options));
+  std::vector<Search> search(static_cast<std::size_t>(std::clamp(options.starts, 1, int{starts})),
+                             Search(work, start, options));
   for_each(work, Cost::single, search.size(), [&](std::size_t i) {
     Begin(search[i], pieces).run(static_cast<Start>(i));
     search[i].keep_if_better();

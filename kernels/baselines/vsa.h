@@ -10,6 +10,7 @@ namespace intarsia::kernels {
 
 struct VsaOptions {
   Index patches = 40;
+  int starts = 4;                           // of the four below, the first so many
   int iterations = 50;                      // Lloyd steps from each start
   int teleport_every = 5;                   // steps between attempts to teleport; 0 = never
   Real tolerance = 1e-4;                    // relative gain of a round of steps that still counts
