@@ -84,7 +84,7 @@ std::vector<Warning> warnings_of(const Surface& a) {
   }
   if (a.mended.split_length > 0)
     warnings.push_back({"uneven-split",
-                        "the triangles are very uneven: long edges were divided inside, " +
+                        "the triangles are very uneven, or few and flat: long edges were divided inside, " +
                             std::to_string(a.mesh.face_count()) + " triangles; labels go back to the input's",
                         1,
                         {}});

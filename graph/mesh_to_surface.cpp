@@ -38,8 +38,14 @@ void name_by_input(const Work& work, const Soup& input, const kernels::Cleaning&
 // Nothing if the triangles are even enough.
 std::optional<kernels::SplitSoup> split_uneven(const Work& work, const Soup& soup, const LayoutOptions& options,
                                                Surface& s) {
-  if (!options.split_uneven || kernels::edge_variation(work, soup) < options.split_edges.uneven) return {};
-  s.mended.split_length = kernels::split_length(work, soup, s.box.diagonal, options.split_edges);
+  if (!options.split_uneven) return {};
+  kernels::SplitEdgesOptions split = options.split_edges;
+  if (kernels::edge_variation(work, soup) < split.uneven) {
+    constexpr Real kEnough = 0.02;  // diagonals: flat faces need no finer ones
+    if (!kernels::is_polyhedral(work, soup, split)) return {};
+    split.length = std::max(split.length, kEnough);
+  }
+  s.mended.split_length = kernels::split_length(work, soup, s.box.diagonal, split);
   return kernels::split_long_edges(work, soup, s.mended.split_length * s.box.diagonal);
 }
 

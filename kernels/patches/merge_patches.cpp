@@ -34,7 +34,7 @@ Real merge_cost(const PatchGraph& graph, Index p, const Border& b, const MergeOp
 bool is_tiny(const PatchGraph& graph, Index p, const PatchSurface& surface, const MergeOptions& options) {
   const PatchNode& n = graph[p];
   return n.area < options.tiny_area * surface.total_area ||
-         2 * n.area < options.tiny_width * surface.mean_edge * n.perimeter;
+         2 * n.area < std::min(options.tiny_width * surface.mean_edge, options.widest_tiny) * n.perimeter;
 }
 
 Index merge_tiny(const Work& work, const PatchSurface& surface, const MergeOptions& options, PatchGraph& graph) {

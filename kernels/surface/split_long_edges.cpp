@@ -121,6 +121,29 @@ Real edge_variation(const Work& work, const Soup& soup) {
 }
 
 // Expects of a triangle with longest side a and height h about 4 (a / l) max(1, h / l) parts with sides up to l.
+bool is_polyhedral(const Work& work, const Soup& soup, const SplitEdgesOptions& options) {
+  constexpr Real kFlat = 0.02, kSharp = 0.5, kFewBetween = 0.02;  // radians; share of the edges
+  const Index faces = soup.face_count();
+  if (faces > options.few) return false;
+  std::vector<Vec3> normal(faces);
+  const auto at = [&](Index v) { return Vec3(soup.x[v], soup.y[v], soup.z[v]); };
+  for (Index f = 0; f < faces; ++f) {
+    const Index* c = &soup.corner[3 * std::size_t{f}];
+    normal[f] = (at(c[1]) - at(c[0])).cross(at(c[2]) - at(c[0]));
+  }
+  const std::vector<Side> side = sorted_sides(work, soup.corner);
+  Index edges = 0, between = 0, sharp = 0;
+  for_each_edge(work, side, [&](std::size_t begin, std::size_t end) {
+    if (end - begin != 2) return;
+    const Vec3 &m = normal[side[begin].triangle()], &n = normal[side[begin + 1].triangle()];
+    const Real turn = std::atan2(m.cross(n).norm(), m.dot(n));
+    ++edges;
+    between += turn > kFlat && turn < kSharp ? 1 : 0;
+    sharp += turn >= kSharp ? 1 : 0;
+  });
+  return sharp > 0 && between <= kFewBetween * edges;
+}
+
 Real split_length(const Work& work, const Soup& soup, Real diagonal, const SplitEdgesOptions& options) {
   const auto parts = [&](Real length) {
     return sum(work, Cost::light, soup.corner.size() / 3, Real(0), [&](std::size_t t) {

@@ -15,10 +15,15 @@ struct SplitEdgesOptions {
   Real uneven = 1;            // coefficient of variation of the edge lengths from which triangles count as uneven
   Real length = 0.008;        // longest edge wanted, diagonals
   Real most_triangles = 3e5;  // longer edges are allowed where there would be more
+  Index few = 1000;           // triangles that a polyhedral mesh has at most
 };
 
 // Standard deviation / mean of the edge lengths (each edge as often as it has triangles).
 Real edge_variation(const Work& work, const Soup& soup);
+
+// A few flat faces meeting in creases, as boxes come from CAD programs: at most options.few triangles, and hardly an
+// edge turns by an angle between flat and sharp. Such a mesh has nothing around its creases to tell them from noise by.
+bool is_polyhedral(const Work& work, const Soup& soup, const SplitEdgesOptions& options);
 
 // The longest edge to divide to, diagonals: as wanted, or longer as far as the triangles would be too many.
 Real split_length(const Work& work, const Soup& soup, Real diagonal, const SplitEdgesOptions& options);

@@ -73,3 +73,13 @@ TEST_CASE("short edges stay as they are") {
   CHECK(split.soup.corner == soup.corner);
   CHECK(split.soup.x == soup.x);
 }
+
+TEST_CASE("a box of twelve triangles is polyhedral, spheres and fine boxes are not") {
+  CHECK(is_polyhedral(Work(), test::cube(1), {}));
+  CHECK(is_polyhedral(Work(), test::cube(5), {}));
+  CHECK(!is_polyhedral(Work(), test::cube(12), {}));  // fine enough as it is
+  CHECK(!is_polyhedral(Work(), test::icosphere(2), {}));
+  CHECK(!is_polyhedral(Work(), test::icosphere(3), {}));
+  CHECK(!is_polyhedral(Work(), test::plane(4, 4), {}));
+  CHECK(!is_polyhedral(Work(), test::cylinder(1, 1, 3, 24, 6), {}));
+}
