@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,7 @@
 #include "engine/run/context.h"
 #include "graph/stages.h"
 #include "kernels/surface/diagnose_soup.h"
+#include "kernels/surface/self_intersections.h"
 #include "tools/commands.h"
 #include "tools/exit_code.h"
 #include "tools/forecast.h"
@@ -24,7 +26,7 @@ using nlohmann::json;
 struct InfoFlags {
   std::string input;
   int threads = 0;
-  bool json = false;
+  bool json = false, intersections = false;
 };
 
 // What run would make of it: mended, measured; or why it would refuse.
@@ -34,7 +36,8 @@ struct Prospect {
   Real roughness = 0;           // degrees
   Real variation = 0;           // standard deviation / mean of the edge lengths
   bool noisy = false;
-  std::uint64_t searched = 0;  // triangles the features would be looked for on
+  std::uint64_t searched = 0;                         // triangles the features would be looked for on
+  std::optional<kernels::SelfIntersections> meeting;  // where asked for
 };
 
 Prospect prospect_of(const Work& work, const Soup& soup) {
@@ -75,6 +78,9 @@ json json_of(const std::string& input, const SoupDiagnosis& d, const Forecast& f
   json faults = json::object();
   for (const NamedFault& f : faults_of(d)) faults[f.key] = {{"count", f.fault->count}, {"first", f.fault->first}};
   json mended = json::array();
+  if (p.meeting)
+    faults["self_intersections"] = {
+        {"count", p.meeting->triangles.count}, {"first", p.meeting->triangles.first}, {"pairs", p.meeting->pairs}};
   for (const Warning& w : p.mended) mended.push_back({{"code", w.code}, {"count", w.count}, {"message", w.message}});
   return {{"schema", "intarsia-info"},
           {"schema_version", 1},
@@ -127,6 +133,12 @@ void print(const std::string& input, const SoupDiagnosis& d, const Forecast& for
     fmt::print("  {} {}: {} {}{}\n", f.fault->count, f.text, f.element, fmt::join(f.fault->first, ", "),
                f.fault->count > f.fault->first.size() ? ", ..." : "");
   }
+  if (p.meeting && p.meeting->pairs > 0) {
+    const Fault& f = p.meeting->triangles;
+    clean = false;
+    fmt::print("  {} faces that meet others, in {} pairs: face {}{}\n", f.count, p.meeting->pairs,
+               fmt::join(f.first, ", "), f.count > f.first.size() ? ", ..." : "");
+  }
   if (clean) fmt::print("  no faults\n");
   if (!p.refusal.empty()) fmt::print("  run refuses it: {}\n", p.refusal);
   for (const Warning& w : p.mended) fmt::print("  run mends: {}\n", w.message);
@@ -146,6 +158,7 @@ int info(const InfoFlags& flags) {
     const Soup soup = read_mesh(work, flags.input);
     d = kernels::diagnose_soup(work, soup);
     prospect = prospect_of(work, soup);
+    if (flags.intersections) prospect.meeting = kernels::self_intersections(work, soup);
   });
   const Forecast forecast =
       kRunCost(std::max(d.vertices, prospect.searched / 2), std::max(d.triangles, prospect.searched));
@@ -162,6 +175,8 @@ void add_info_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<InfoFlags>();
   CLI::App* command = app.add_subcommand("info", "what a mesh is like, what is wrong with it, what a run will cost");
   command->add_option("input", flags->input, "mesh: .ply .obj .stl .off")->required();
+  command->add_flag("--self-intersections", flags->intersections,
+                    "also look for triangles that cross, overlap or touch others: exact, takes longer");
   command->add_flag("--json", flags->json, "print JSON");
   command->add_option("-t,--threads", flags->threads, "threads; 0 = all allowed processors")
       ->check(CLI::NonNegativeNumber);

@@ -90,3 +90,18 @@ TEST_CASE("a mesh that needs more than --max-memory is refused before any work, 
       run_program(INTARSIA_PROGRAM, {"features", mesh, "-o", folder / "f.ply", "--max-memory", "1M"}, folder);
   CHECK(features.status == 6);
 }
+
+TEST_CASE("triangles that cross are named where that is asked for") {
+  const ProgramFolder folder("crossing");
+  std::ofstream(folder / "cross.off") << "OFF\n6 2 0\n0 0 0\n4 0 0\n0 4 0\n1 1 -1\n1 1 1\n9 9 0\n3 0 1 2\n3 3 4 5\n";
+  const auto info = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"info", folder / "cross.off", "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return nlohmann::json::parse(run_program(INTARSIA_PROGRAM, arguments, folder).out)["faults"];
+  };
+  CHECK(!info({}).contains("self_intersections"));
+  const nlohmann::json found = info({"--self-intersections"})["self_intersections"];
+  CHECK(found["pairs"] == 1);
+  CHECK(found["count"] == 2);
+  CHECK(found["first"] == std::vector<int>{0, 1});
+}
