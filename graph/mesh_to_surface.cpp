@@ -45,6 +45,7 @@ std::optional<kernels::SplitSoup> split_uneven(const Work& work, const Soup& sou
     if (!kernels::is_polyhedral(work, soup, split)) return {};
     split.length = std::max(split.length, kEnough);
   }
+  if (kernels::has_pillows(work, soup)) return {};
   s.mended.split_length = kernels::split_length(work, soup, s.box.diagonal, split);
   return kernels::split_long_edges(work, soup, s.mended.split_length * s.box.diagonal);
 }

@@ -111,8 +111,9 @@ void compare_mesh(const Work& work, const TableFlags& flags, const graph::Layout
   const auto counts = counts_of(flags);
   o.patches = flags.patches;
   if (const auto it = counts.find(name); it != counts.end()) o.patches = it->second;
-  const graph::Prepared prepared = graph::prepare(work, read_mesh(work, path), o);
   const auto references = pairs(flags, flags.references, "--reference");
+  if (references.contains(name)) o.split_uneven = false;  // the reference has no places for new vertices
+  const graph::Prepared prepared = graph::prepare(work, read_mesh(work, path), o);
   Mesh against;
   MeshNumbers numbers;
   if (const auto it = references.find(name); it != references.end()) {

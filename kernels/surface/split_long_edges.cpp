@@ -144,6 +144,18 @@ bool is_polyhedral(const Work& work, const Soup& soup, const SplitEdgesOptions& 
   return sharp > 0 && between <= kFewBetween * edges;
 }
 
+bool has_pillows(const Work& work, const Soup& soup) {
+  const std::vector<Side> side = sorted_sides(work, soup.corner);
+  const auto opposite = [&](const Side& s) {
+    return soup.corner[3 * s.triangle() + (s.at + 2 - 3 * s.triangle()) % 3];
+  };
+  bool found = false;
+  for_each_edge(work, side, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin + 1; i < end; ++i) found = found || opposite(side[i]) == opposite(side[begin]);
+  });
+  return found;
+}
+
 Real split_length(const Work& work, const Soup& soup, Real diagonal, const SplitEdgesOptions& options) {
   const auto parts = [&](Real length) {
     return sum(work, Cost::light, soup.corner.size() / 3, Real(0), [&](std::size_t t) {

@@ -33,9 +33,12 @@ struct SplitSoup {
   std::vector<Index> parent;  // triangle -> triangle it is a part of
 };
 
+// Two triangles with the same three corners, back to back: their halves would have four triangles on one edge.
+bool has_pillows(const Work& work, const Soup& soup);
+
 // Every triangle with a longer edge is divided into triangles with the same plane and, together, the same area. No
 // vertex in the middle of a neighbour's edge is left. `length` in model units, > 0. Serial, linear in what it makes.
-// Requires: check_soup accepts the soup.
+// Requires: check_soup accepts the soup; it has no pillows.
 SplitSoup split_long_edges(const Work& work, const Soup& soup, Real length);
 
 }  // namespace intarsia::kernels

@@ -117,7 +117,7 @@ TEST_CASE("thousands of damaged files break no promise") {
         if (++broken < 4) {
           CAPTURE(target.name);
           CAPTURE(round);
-          FAIL_CHECK(e.what());
+          FAIL_CHECK(std::string(e.what()));
         }
       }
     }

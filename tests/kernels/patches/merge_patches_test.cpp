@@ -83,7 +83,8 @@ TEST_CASE("the sharp border stays when another neighbour will do") {
     const Real line = mirrored ? 0.475 : 0.525;
     const auto t = cut_along_x(soup, [&](Real x) { return near(x, 0.5) || near(x, line); });
     const auto s = test::surface_of(t);
-    const auto merged = merge_patches(Work(), s, flood_patches(Work(), s.mesh, t.refined.on_network), {});
+    const auto merged =
+        merge_patches(Work(), s, flood_patches(Work(), s.mesh, t.refined.on_network), {.widest_tiny = 0.1});
     REQUIRE(merged.count == 2);
     const auto table = measure_patches(Work(), s, merged);
     for (Index p = 0; p < 2; ++p) CHECK(table.normal_sum[p].norm() == doctest::Approx(table.area[p]));

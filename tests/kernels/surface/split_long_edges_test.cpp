@@ -83,3 +83,13 @@ TEST_CASE("a box of twelve triangles is polyhedral, spheres and fine boxes are n
   CHECK(!is_polyhedral(Work(), test::plane(4, 4), {}));
   CHECK(!is_polyhedral(Work(), test::cylinder(1, 1, 3, 24, 6), {}));
 }
+
+TEST_CASE("two triangles back to back are a pillow") {
+  Soup s;
+  for (const Vec3& p : {Vec3(0, 0, 0), Vec3(5, 0, 0), Vec3(0, 5, 0)}) add_vertex(s, p);
+  add_face(s, 0, 1, 2);
+  CHECK(!has_pillows(Work(), s));
+  add_face(s, 0, 2, 1);
+  CHECK(has_pillows(Work(), s));
+  CHECK(!has_pillows(Work(), test::cube(2)));
+}
