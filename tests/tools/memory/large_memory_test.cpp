@@ -1,4 +1,5 @@
 // The program's own new and delete for large arrays (tools/large_memory.cpp is linked into this test).
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <tbb/parallel_for.h>
 
 namespace {
 
@@ -86,4 +88,15 @@ TEST_CASE("alignment is kept") {
     const std::vector<Pack> packs(n);
     CHECK(reinterpret_cast<std::uintptr_t>(packs.data()) % 64 == 0);
   }
+}
+
+TEST_CASE("fresh memory is zero, from inside parallel loops too, where it is fetched by several threads") {
+  constexpr std::size_t kBytes = std::size_t{24} << 20;
+  std::atomic<int> bad{0};
+  tbb::parallel_for(0, 6, [&](int) {
+    const std::unique_ptr<unsigned char[]> data(new unsigned char[kBytes]());
+    for (std::size_t i = 0; i < kBytes; i += 1024) bad += data[i] != 0;
+    bad += data[kBytes - 1] != 0;
+  });
+  CHECK(bad.load() == 0);
 }
