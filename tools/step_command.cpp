@@ -45,6 +45,8 @@ struct Made {
   LayoutFit fit;
   CadCheck check;
   ModelDeviation deviation;       // diagonals
+  CadCheck read;                  // of the file's text, read back
+  ModelDeviation read_deviation;  // diagonals
   std::vector<Index> patch_face;  // patch -> face of the model, or kNone
   Real tolerance = 0, diagonal = 1, fineness = 0;
   Real mesh_volume = 0;  // diagonals^3; 0 if the mesh has a border
@@ -91,6 +93,32 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+constexpr Real kReadDeflection = 0.1;  // tolerances
+
+// What another program will see: the text as the library's reader understands it, in the library's own triangles.
+void read_back(const Work& work, const LayoutFromFile& layout, Real mm, Made& made) {
+  const CadShape shape = CadShape::read_step_text(made.step);
+  made.read = shape.check();
+  work.check();
+  const CadTriangles found = shape.triangulate(kReadDeflection * mm * made.tolerance * made.diagonal);
+  if (!found.empty.empty()) {
+    made.read.trouble +=
+        fmt::format("{}{} faces that it cannot triangulate", made.read.trouble.empty() ? "" : ", ", found.empty.size());
+    made.read.valid = false;
+  }
+  if (found.face.empty()) return;
+  Vec3Array point(found.x.size());
+  const Vec3 centre = layout.box.centre;
+  for_each(work, Cost::light, point.size(), [&](std::size_t i) {
+    point.set(i, (Vec3(found.x[i], found.y[i], found.z[i]) / mm - centre) / made.diagonal);
+  });
+  // The reader's faces are in an order of their own, so this is for all of them at once.
+  const std::vector<Index> all_of_mesh(layout.label.size(), 0), whole = {0}, all_of_model(found.face.size(), 0);
+  const Mesh& mesh = layout.refined.mesh;
+  made.read_deviation = measure_model(work, {Vec3View{mesh.x, mesh.y, mesh.z}, mesh.corner}, all_of_mesh, whole,
+                                      {Vec3View{point.x, point.y, point.z}, found.corner}, all_of_model, 1);
+}
+
 Made make(const Work& work, const StepFlags& flags, const LayoutFromFile& layout, const std::string& name) {
   Made made;
   made.tolerance = tolerance_of(flags, layout);
@@ -118,11 +146,6 @@ Made make(const Work& work, const StepFlags& flags, const LayoutFromFile& layout
   made.check.area /= mm * mm, made.check.volume /= mm * mm * mm;
   work.check();
   made.fineness = made.tolerance / 20;
-  const CadTriangles coarse = shape.triangulate(mm * made.tolerance * made.diagonal);
-  if (!coarse.empty.empty())
-    made.check.trouble += fmt::format("{}{} faces that it cannot triangulate", made.check.trouble.empty() ? "" : ", ",
-                                      coarse.empty.size()),
-        made.check.valid = false;
   const ModelTriangles triangles = triangulate_model(work, made.fit.layout, model, made.fineness);
   const Mesh& mesh = layout.refined.mesh;
   made.deviation = measure_model(work, {Vec3View{mesh.x, mesh.y, mesh.z}, mesh.corner}, layout.label, made.patch_face,
@@ -130,6 +153,8 @@ Made make(const Work& work, const StepFlags& flags, const LayoutFromFile& layout
                                  static_cast<Index>(model.face.size()));
   if (!flags.triangles.empty()) write_triangles(work, flags.triangles, triangles, model, layout.box);
   made.step = shape.step_text(name, static_cast<CadUnit>(unit), "Intarsia " INTARSIA_VERSION);
+  work.check();
+  read_back(work, layout, mm, made);
   made.build_seconds = seconds_since(built);
   return made;
 }
@@ -159,6 +184,20 @@ json report_of(const StepFlags& flags, const Made& m) {
   Real gap = 0;
   for (const CadEdge& e : model.edge) gap = std::max(gap, e.tolerance);
   report["largest_gap"] = lengths(gap, d);
+  const Real mm = kMillimetres[unit_of(flags.unit)];
+  report["read_back"] = {{"faces", m.read.faces},
+                         {"edges", m.read.edges},
+                         {"vertices", m.read.vertices},
+                         {"shells", m.read.shells},
+                         {"solids", m.read.solids},
+                         {"valid", m.read.valid},
+                         {"trouble", m.read.trouble},
+                         {"free_edges", m.read.free_edges},
+                         {"degenerate_edges", m.read.degenerate_edges},
+                         {"largest_tolerance", lengths(m.read.largest_tolerance / mm / d, d)},
+                         {"mesh_to_faces", lengths(m.read_deviation.to_face, d)},
+                         {"faces_to_mesh", lengths(m.read_deviation.to_mesh, d)},
+                         {"deflection", lengths(kReadDeflection * m.tolerance, d)}};
   report["seconds"] = {{"fit", m.fit_seconds}, {"build", m.build_seconds}};
   std::vector<std::uint8_t> invalid(model.face.size(), 0);
   for (const Index f : m.check.invalid_face) invalid[f] = 1;
@@ -213,6 +252,15 @@ bool warn(const Made& m) {
                     m.fit.model.face[worst].patch, 100 * m.deviation.face[worst].largest()));
   if (m.check.free_edges != m.border_arcs)
     say(fmt::format("{} free edges, but the mesh has {} arcs at its border", m.check.free_edges, m.border_arcs));
+  // Of the file as it is read back, what the model itself has not.
+  if (m.check.valid && !m.read.valid)
+    say(fmt::format("read back, the file has {} in {} faces", m.read.trouble, m.read.invalid_face.size()));
+  if (m.read.faces != m.check.faces || m.read.free_edges != m.check.free_edges || m.read.degenerate_edges > 0)
+    say(fmt::format("read back, the file has {} faces, {} free edges and {} edges of no length instead of {}, {} and 0",
+                    m.read.faces, m.read.free_edges, m.read.degenerate_edges, m.check.faces, m.check.free_edges));
+  const Real read_most = m.read_deviation.largest();
+  if (beyond == 0 && read_most > m.tolerance)
+    say(fmt::format("read back, the file is {:.3g} % of the diagonal from the mesh", 100 * read_most));
   return degraded;
 }
 
@@ -228,10 +276,14 @@ void print_text(const Made& m, const std::filesystem::path& path) {
   fmt::print("{:<22}{:>12}{:>14}\n", "", "% of diagonal", "model units");
   for (const auto& [name, value] : {std::pair("mesh to faces", m.deviation.to_face),
                                     {"faces to mesh", m.deviation.to_mesh},
+                                    {"mesh to file", m.read_deviation.to_face},
+                                    {"file to mesh", m.read_deviation.to_mesh},
                                     {"RMS", m.deviation.rms},
                                     {"tolerance", m.tolerance},
                                     {"gap between faces", gap}})
     fmt::print("{:<22}{:>12.4g}{:>14.6g}\n", name, 100 * value, value * d);
+  fmt::print("read back: {} faces, {} edges, {} solids, {} shells, {} free edges; {}\n", m.read.faces, m.read.edges,
+             m.read.solids, m.read.shells, m.read.free_edges, m.read.valid ? "valid" : "NOT valid");
   if (m.check.solids > 0) fmt::print("volume {:.6g}, the mesh's {:.6g}\n", m.check.volume, m.mesh_volume * d * d * d);
   fmt::print("fitted in {:.2f} s, built and checked in {:.2f} s; {:.1f} MB written to {}\n", m.fit_seconds,
              m.build_seconds, static_cast<double>(m.step.size()) / 1e6, path.string());

@@ -35,6 +35,14 @@ TEST_CASE("step: without OpenCASCADE it says what to install, with it the layout
   const double tolerance = report["tolerance"]["absolute"], area = report["area"];
   CHECK(std::abs(report["volume"].get<double>() - report["mesh_volume"].get<double>()) <= tolerance * area);
   for (const auto& row : report["face_table"]) CHECK(row["within"] == true);
+  const auto& again = report["read_back"];
+  CHECK(again["valid"] == true);
+  CHECK(again["faces"] == report["faces"]);
+  CHECK(again["edges"] == report["edges"]);
+  CHECK(again["free_edges"] == 0);
+  CHECK(again["degenerate_edges"] == 0);
+  CHECK(again["mesh_to_faces"]["percent"].get<double>() <= 0.5);
+  CHECK(again["faces_to_mesh"]["percent"].get<double>() <= 0.5);
 
   const std::string text = test::file_text(dir / "box.step");
   CHECK(text.rfind("ISO-10303-21;", 0) == 0);

@@ -11,6 +11,7 @@ namespace intarsia::tools {
 struct CadVertex {
   Vec3 point;
   Real tolerance = 0;  // the ends of its edges, and their places on the faces, are within
+  Real gap = 0;        // largest distance of its places on the faces, as measured
 };
 
 struct CadEdge {

@@ -16,8 +16,9 @@ struct CadCheck {
   std::vector<Index> invalid_face;  // positions in the model's faces
   std::string trouble;              // names of what it found, each once
   Index faces = 0, edges = 0, vertices = 0, shells = 0, solids = 0;
-  Index free_edges = 0;       // with one face only
-  Real area = 0, volume = 0;  // volume of the solids
+  Index free_edges = 0;        // with one face only, and a length
+  Index degenerate_edges = 0;  // points that are edges: readers fill gaps in a face's border with such
+  Real area = 0, volume = 0;   // volume of the solids
   Real largest_tolerance = 0;
 };
 
@@ -36,8 +37,9 @@ class CadShape {
   // Positions become centre + scale * position, parameters and tolerances scale * theirs. Faces that share edges make
   // a shell, closed shells a solid; shells that are turned inwards are walls of cavities of the solid around them.
   CadShape(const CadModel& model, const Vec3& centre, Real scale);
-  // Errors: bad_file.
+  // By the library's own reader, with its repairs. Errors: bad_file.
   static CadShape read_step(const std::filesystem::path& path);
+  static CadShape read_step_text(const std::string& text);
   ~CadShape();
   CadShape(CadShape&&) noexcept;
   CadShape& operator=(CadShape&&) noexcept;
@@ -45,7 +47,8 @@ class CadShape {
   CadCheck check() const;
   // No edge of a triangle is farther than about `deflection` from the face or edge it stands for.
   CadTriangles triangulate(Real deflection) const;
-  // The text of a STEP file (AP214) with lengths in that unit. No date: the time stamp is always the same. Not thread-safe (the library's settings are global). Errors: internal.
+  // The text of a STEP file (AP214) with lengths in that unit. No date: the time stamp is always the same. Not
+  // thread-safe (the library's settings are global). Errors: internal.
   std::string step_text(const std::string& name, CadUnit unit, const std::string& version) const;
 
  private:

@@ -9,6 +9,7 @@ namespace intarsia::tools {
 namespace {
 
 constexpr Real kBorderWeight = 30;
+constexpr Real kCornerWeight = 3e5;  // of the sample of a cell
 
 Real area_of(const PatchPiece& piece, std::size_t t) {
   const auto& c = piece.triangle[t];
@@ -64,14 +65,15 @@ struct Fit {
   Real excess(const FitLimits& l) const { return std::max(inside / l.inside, border / l.border); }
 };
 
-Fit fit_net(const SplineDomain& domain, SurfaceSamples samples, std::size_t inner) {
+// The first `inner` samples are of the inside, those from `fixed` on keep their parameters.
+Fit fit_net(const SplineDomain& domain, SurfaceSamples samples, std::size_t inner, std::size_t fixed) {
   Fit fit;
   FaceSurface face;
   const Real reach = std::max(domain.u_step(), domain.v_step());
   for (int round = 0; round < 2; ++round) {
     face.spline = fit_surface(domain, samples);
     Real inside = 0, border = 0;
-    for (std::size_t k = 0; k < samples.size(); ++k) {
+    for (std::size_t k = 0; k < fixed; ++k) {
       const Vec2 foot = face.nearest(samples.point[k], samples.uv[k], 3);
       const Real distance = (face.at(foot).point - samples.point[k]).norm();
       (k < inner ? inside : border) = std::max(k < inner ? inside : border, distance);
@@ -103,8 +105,11 @@ Fit fit_flattened(const PatchPiece& piece, std::span<const Vec2> uv, std::span<c
     std::vector<BorderGuide> own;
     if (guides.empty()) own = own_border(piece, uv, step / 4);
     for (const BorderGuide& g : guides.empty() ? std::span<const BorderGuide>(own) : guides)
-      samples.add(g.uv, g.point, kBorderWeight * g.length * step);
-    Fit fit = fit_net(domain, std::move(samples), inner);
+      if (!g.corner) samples.add(g.uv, g.point, kBorderWeight * g.length * step);
+    const std::size_t fixed = samples.size();
+    for (const BorderGuide& g : guides)
+      if (g.corner) samples.add(g.uv, g.point, kCornerWeight * domain.u_step() * domain.v_step());
+    Fit fit = fit_net(domain, std::move(samples), inner, fixed);
     if (first || fit.excess(limits) < best.excess(limits)) best = std::move(fit);
     if (best.within(limits)) break;
   }

@@ -20,7 +20,8 @@ struct FitLimits {
 struct BorderGuide {
   Vec2 uv;
   Vec3 point;
-  Real length = 0;  // of the border that it stands for
+  Real length = 0;      // of the border that it stands for
+  bool corner = false;  // the surface has this point at uv, as nearly as its net lets it
 };
 
 struct FittedFace {

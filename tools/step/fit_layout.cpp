@@ -39,7 +39,7 @@ LayoutFit fit_layout(const Work& work, const MeshView& mesh, std::span<const Ind
       for (const PatchPiece::Loop& l : layout.piece[p].loop)
         for (const PatchPiece::Side& s : l.side) stale = stale || freedom.stale[s.half_arc / 2];
       if (stale && layout.face[p].done && !layout.face[p].surface.is_plane)
-        fit_again(layout.piece[p], guides_of(layout, fit.model, p), limits, layout.face[p]);
+        fit_again(layout.piece[p], guides_of(layout, freedom, fit.model, p), limits, layout.face[p]);
     });
     add_faces(work, layout, edges, freedom, fit.model);
     if (stiffen_crossings(work, fit.model, freedom) == 0) break;

@@ -33,10 +33,10 @@ struct OnFace {
   Vec2 uv;
 };
 
-Vec3 where_faces_meet(const Vec3& start, std::vector<OnFace>& on, Real most) {
+Vec3 where_faces_meet(const Vec3& start, std::vector<OnFace>& on, Real most, int rounds = 8) {
   constexpr Real kDamping = 0.05;
   Vec3 x = start;
-  for (int round = 0; round < 8; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     Eigen::Matrix3d matrix = kDamping * Eigen::Matrix3d::Identity();
     Vec3 right = Vec3::Zero();
     for (OnFace& f : on) {
@@ -203,7 +203,7 @@ void share_edges(const Work& work, const FittedLayout& layout, const EdgeLimits&
   for_each(work, Cost::heavy, around.size(), [&](std::size_t n) {
     if (around[n].empty() || !stale[n]) return;
     model.vertex[n].point =
-        freedom.node[n] == Freedom::none ? node_point[n] : where_faces_meet(node_point[n], around[n], limits.move);
+        freedom.node[n] == Freedom::none ? node_point[n] : where_faces_meet(node_point[n], around[n], limits.move, 40);
   });
   for_each(work, Cost::single, graph.arc_count(), [&](std::size_t i) {
     const Index arc = static_cast<Index>(i);
@@ -236,11 +236,38 @@ void share_edges(const Work& work, const FittedLayout& layout, const EdgeLimits&
   });
 }
 
-std::vector<BorderGuide> guides_of(const FittedLayout& layout, const CadModel& model, Index patch) {
+namespace {
+
+// The corners of a loop on the patch's face: each is one place, whichever of its two sides it is seen from. Beside a
+// polyline it is where the flattening has it.
+std::vector<Vec2> corners_of(const FittedLayout& layout, const EdgeFreedom& freedom, const CadModel& model, Index patch,
+                             const PatchPiece::Loop& loop) {
+  const auto is_polyline = [&](const PatchPiece::Side& s) { return freedom.arc[s.half_arc / 2] == Freedom::polyline; };
+  std::vector<Vec2> corner;
+  for (std::size_t i = 0; i < loop.side.size(); ++i) {
+    const PatchPiece::Side& s = loop.side[i];
+    const Index node = s.half_arc % 2 ? layout.graph->end[s.half_arc / 2] : layout.graph->start[s.half_arc / 2];
+    const Vec2 flat = layout.face[patch].uv[loop.point[s.begin]];
+    const bool stiff = is_polyline(s) || is_polyline(loop.side[(i + loop.side.size() - 1) % loop.side.size()]);
+    corner.push_back(stiff ? flat : layout.face[patch].surface.nearest(model.vertex[node].point, flat, 12));
+  }
+  return corner;
+}
+
+}  // namespace
+
+std::vector<BorderGuide> guides_of(const FittedLayout& layout, const EdgeFreedom& freedom, const CadModel& model,
+                                   Index patch) {
   const std::vector<Place> place = places_of(layout);
   std::vector<BorderGuide> out;
   const PatchPiece& piece = layout.piece[patch];
-  for (const PatchPiece::Loop& loop : piece.loop)
+  for (const PatchPiece::Loop& loop : piece.loop) {
+    const std::vector<Vec2> corner = corners_of(layout, freedom, model, patch, loop);
+    for (std::size_t i = 0; i < corner.size(); ++i) {
+      const Index half = loop.side[i].half_arc;
+      const Index node = half % 2 ? layout.graph->end[half / 2] : layout.graph->start[half / 2];
+      out.push_back({corner[i], model.vertex[node].point, 0, true});
+    }
     for (const PatchPiece::Side& s : loop.side) {
       const Index arc = s.half_arc / 2;
       const CadEdge& edge = model.edge[arc];
@@ -251,6 +278,7 @@ std::vector<BorderGuide> guides_of(const FittedLayout& layout, const CadModel& m
       for (std::size_t k = 0; k < t.size(); ++k)
         out.push_back({uv[k], edge.curve.at(t[k]), edge.curve.length / static_cast<Real>(t.size())});
     }
+  }
   return out;
 }
 
@@ -269,7 +297,7 @@ bool corners_agree(const CadEdge& edge, const FaceSurface& plane, bool forward, 
 void add_faces(const Work& work, const FittedLayout& layout, const EdgeLimits& limits, const EdgeFreedom& freedom,
                CadModel& model) {
   const std::vector<Place> place = places_of(layout);
-  std::vector<Real> gap(place.size(), 0);
+  std::vector<Real> gap(place.size(), 0), end_gap(place.size(), 0);
   std::vector<CadFace> face(layout.piece.size());
   for_each(work, Cost::single, layout.piece.size(), [&](std::size_t p) {
     if (!layout.face[p].done) return;
@@ -278,24 +306,13 @@ void add_faces(const Work& work, const FittedLayout& layout, const EdgeLimits& l
     const FaceSurface& surface = face[p].surface;
     for (const PatchPiece::Loop& loop : layout.piece[p].loop) {
       std::vector<CadSide> sides;
-      // The corner of a face is one place, whichever of its two sides it is seen from.
-      std::vector<Vec2> corner;
-      const auto is_polyline = [&](const PatchPiece::Side& s) {
-        return freedom.arc[s.half_arc / 2] == Freedom::polyline;
-      };
-      for (std::size_t i = 0; i < loop.side.size(); ++i) {
-        const PatchPiece::Side& s = loop.side[i];
-        const Index node = s.half_arc % 2 ? layout.graph->end[s.half_arc / 2] : layout.graph->start[s.half_arc / 2];
-        const Vec2 flat = layout.face[p].uv[loop.point[s.begin]];
-        const bool stiff = is_polyline(s) || is_polyline(loop.side[(i + loop.side.size() - 1) % loop.side.size()]);
-        corner.push_back(stiff ? flat : surface.nearest(model.vertex[node].point, flat, 12));
-      }
+      const std::vector<Vec2> corner = corners_of(layout, freedom, model, static_cast<Index>(p), loop);
       for (std::size_t i = 0; i < loop.side.size(); ++i) {
         const Index half = loop.side[i].half_arc;
         const CadEdge& edge = model.edge[half / 2];
         CadSide side{half / 2, half % 2 == 0, {}, {}, {}};
         std::vector<Real> t = parameters(edge, 48);
-        if (is_polyline(loop.side[i])) {
+        if (freedom.arc[half / 2] == Freedom::polyline) {
           ArcSamples samples = sample(layout, place, half / 2, kLeastSamples);
           measure_along(samples);
           const Real scale = edge.curve.length / samples.t.back();
@@ -328,18 +345,20 @@ void add_faces(const Work& work, const FittedLayout& layout, const EdgeLimits& l
           const Real x = edge.curve.length * k / fine;
           gap[half] = std::max(gap[half], (surface.at(side.at(x)).point - edge.curve.at(x)).norm());
         }
+        end_gap[half] = std::max((surface.at(side.at(0)).point - model.vertex[edge.start].point).norm(),
+                                 (surface.at(side.at(edge.curve.length)).point - model.vertex[edge.end].point).norm());
         sides.push_back(std::move(side));
       }
       face[p].loops.push_back(std::move(sides));
     }
   });
   for (CadEdge& e : model.edge) e.tolerance = 0;
-  for (CadVertex& v : model.vertex) v.tolerance = 0;
+  for (CadVertex& v : model.vertex) v.tolerance = v.gap = 0;
   for (Index h = 0; h < place.size(); ++h) {
     CadEdge& edge = model.edge[h / 2];
     edge.tolerance = std::max(edge.tolerance, gap[h]);
-    for (const Index v : {edge.start, edge.end})
-      model.vertex[v].tolerance = std::max(model.vertex[v].tolerance, edge.tolerance);
+    for (CadVertex* v : {&model.vertex[edge.start], &model.vertex[edge.end]})
+      v->tolerance = std::max(v->tolerance, edge.tolerance), v->gap = std::max(v->gap, end_gap[h]);
   }
   model.face.clear();
   for (CadFace& f : face)

@@ -40,8 +40,9 @@ struct EdgeFreedom {
 void share_edges(const Work& work, const FittedLayout& layout, const EdgeLimits& limits, const EdgeFreedom& freedom,
                  CadModel& model);
 
-// Samples of the shared curves around one patch, with their feet on its face.
-std::vector<BorderGuide> guides_of(const FittedLayout& layout, const CadModel& model, Index patch);
+// Samples of the shared curves around one patch with their feet on its face, and its corners.
+std::vector<BorderGuide> guides_of(const FittedLayout& layout, const EdgeFreedom& freedom, const CadModel& model,
+                                   Index patch);
 
 // The faces: their loops with the curves on them, and the tolerances of edges and vertices as measured.
 void add_faces(const Work& work, const FittedLayout& layout, const EdgeLimits& limits, const EdgeFreedom& freedom,

@@ -10,6 +10,7 @@ namespace {
 struct Piece {
   Vec2 a, b;
   Index edge;
+  std::size_t next;  // the piece that begins where this one ends
 };
 
 Real side_of(const Vec2& a, const Vec2& b, const Vec2& c) {
@@ -25,21 +26,20 @@ bool cross(const Piece& s, const Piece& o) {
 // The edges of a face whose images cross each other or themselves, ascending.
 std::vector<Index> crossing_edges(const CadFace& face) {
   std::vector<Piece> piece;
-  for (const auto& loop : face.loops)
+  for (const auto& loop : face.loops) {
+    const std::size_t first = piece.size();
     for (const CadSide& side : loop) {
-      if (!side.corner.empty()) {
-        for (std::size_t i = 1; i < side.corner.size(); ++i)
-          piece.push_back({side.corner[i - 1], side.corner[i], side.edge});
-        continue;
+      std::vector<Vec2> point = side.corner;
+      if (point.empty()) {
+        const int n = std::max(24, 8 * side.curve.spans());
+        for (int i = 0; i <= n; ++i) point.push_back(side.curve.at(side.curve.length * i / n));
       }
-      const int n = std::max(24, 8 * side.curve.spans());
-      Vec2 last = side.curve.at(0);
-      for (int i = 1; i <= n; ++i) {
-        const Vec2 next = side.curve.at(side.curve.length * i / n);
-        piece.push_back({last, next, side.edge});
-        last = next;
-      }
+      if (!side.forward) std::reverse(point.begin(), point.end());
+      for (std::size_t i = 1; i < point.size(); ++i)
+        piece.push_back({point[i - 1], point[i], side.edge, piece.size() + 1});
     }
+    if (piece.size() > first) piece.back().next = first;
+  }
   std::vector<std::pair<Real, std::size_t>> order;
   for (std::size_t i = 0; i < piece.size(); ++i) order.emplace_back(std::min(piece[i].a.x(), piece[i].b.x()), i);
   std::sort(order.begin(), order.end());
@@ -49,6 +49,8 @@ std::vector<Index> crossing_edges(const CadFace& face) {
     const Real high = std::max(s.a.x(), s.b.x());
     for (std::size_t m = k + 1; m < order.size() && order[m].first <= high; ++m) {
       const Piece& o = piece[order[m].second];
+      // Pieces that meet in a point do not cross there, whatever rounding makes of it.
+      if (s.next == order[m].second || o.next == order[k].second) continue;
       if (cross(s, o)) found.push_back(s.edge), found.push_back(o.edge);
     }
   }

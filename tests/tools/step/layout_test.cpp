@@ -1,54 +1,15 @@
 #include <doctest/doctest.h>
 
-#include "engine/parallel/connect_mesh.h"
-#include "kernels/layout/trace_boundaries.h"
-#include "kernels/patches/flood_patches.h"
 #include "tests/support/shapes.h"
+#include "tests/tools/step/labelled.h"
 #include "tools/step/fit_layout.h"
 #include "tools/step/measure_model.h"
 
 using namespace intarsia;
 using namespace intarsia::tools;
 
-namespace {
-
-struct Labelled {
-  RefinedMesh refined;
-  std::vector<Index> label;
-  LayoutGraph graph;
-};
-
-// Connected faces of equal label are patches.
-template <class LabelOf>
-Labelled labelled(const Soup& soup, const LabelOf& label_of) {
-  const Work work;
-  Labelled out;
-  Mesh& mesh = out.refined.mesh;
-  mesh.x = soup.x, mesh.y = soup.y, mesh.z = soup.z, mesh.corner = soup.corner;
-  connect_mesh(work, mesh);
-  const MeshView view = mesh;
-  std::vector<Index> label;
-  for (Index f = 0; f < view.face_count(); ++f) {
-    const auto c = view.face(f);
-    const Vec3 a = view.point(c[0]), b = view.point(c[1]), d = view.point(c[2]);
-    label.push_back(label_of((a + b + d) / 3, (b - a).cross(d - a).normalized()));
-  }
-  const PatchLabels patches = kernels::flood_equal(work, mesh, label);
-  out.label = patches.patch_of_face;
-  for (Index e = 0; e < mesh.edge_count(); ++e) {
-    const bool border = view.is_boundary_edge(e);
-    out.refined.on_network.push_back(border || out.label[view.edge_f0[e]] != out.label[view.edge_f1[e]] ? 1 : 0);
-    out.refined.edge_kind.push_back(border ? CurveKind::border : CurveKind::sharp);
-  }
-  out.refined.edge_strength.resize(mesh.edge_count());
-  out.graph = kernels::trace_boundaries(work, out.refined, out.label, patches.count);
-  return out;
-}
-
-}  // namespace
-
 TEST_CASE("a cube becomes six planes, twelve lines and eight corners, exactly") {
-  const Labelled cube = labelled(test::cube(6), [](const Vec3&, const Vec3& n) {
+  const test::Labelled cube = test::labelled(test::cube(6), [](const Vec3&, const Vec3& n) {
     int axis = 0;
     n.cwiseAbs().maxCoeff(&axis);
     return static_cast<Index>(2 * axis + (n[axis] > 0 ? 1 : 0));
@@ -71,7 +32,7 @@ TEST_CASE("a cube becomes six planes, twelve lines and eight corners, exactly") 
 }
 
 TEST_CASE("a sphere in eight parts: every edge used by two faces in opposite directions, gaps small") {
-  const Labelled ball = labelled(test::icosphere(4), [](const Vec3& p, const Vec3&) {
+  const test::Labelled ball = test::labelled(test::icosphere(4), [](const Vec3& p, const Vec3&) {
     return static_cast<Index>((p.x() > 0 ? 1 : 0) + (p.y() > 0 ? 2 : 0) + (p.z() > 0 ? 4 : 0));
   });
   const Real tolerance = 4e-3;
@@ -95,6 +56,11 @@ TEST_CASE("a sphere in eight parts: every edge used by two faces in opposite dir
     CHECK(fit.model.edge[e].tolerance < 0.5 * tolerance);
   }
   for (const FittedFace& f : fit.layout.face) CHECK(f.inside < tolerance);
+  for (const CadVertex& v : fit.model.vertex) CHECK(v.gap < 1e-4 * tolerance);  // surfaces pass through their corners
+  // Quarters of great circles at right angles do not cross, and where they meet they only touch.
+  EdgeFreedom freedom(ball.graph);
+  CHECK(stiffen_crossings({}, fit.model, freedom) == 0);
+  for (const Freedom f : freedom.arc) CHECK(f == Freedom::full);
 }
 
 TEST_CASE("the deviation of a surface moved along its normal is the distance it was moved") {

@@ -13,6 +13,7 @@ namespace intarsia::tools {
 struct CadShape::Impl {
   TopoDS_Shape shape;
   std::vector<TopoDS_Face> face;  // as the model has them
+  Real vertex_gap = 0;            // of the model, in the shape's units
 };
 
 struct BuiltShape {

@@ -1,6 +1,7 @@
 #include "tools/step/cad_shape.h"
 
 #include <algorithm>
+#include <fstream>
 #include <limits>
 #include <set>
 #include <sstream>
@@ -124,18 +125,32 @@ CadShape::CadShape(const CadModel& model, const Vec3& centre, Real scale) : CadS
   try {
     BuiltShape built = build_shape(model, centre, scale);
     impl_->shape = built.shape, impl_->face = std::move(built.face);
+    for (const CadVertex& v : model.vertex) impl_->vertex_gap = std::max(impl_->vertex_gap, scale * v.gap);
   } catch (const Standard_Failure& e) {
     throw Error(ErrorCode::internal, std::string("OpenCASCADE could not build the model: ") + e.GetMessageString());
   }
 }
 
 CadShape CadShape::read_step(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) throw Error(ErrorCode::bad_file, path.string() + ": it cannot be read");
+  return read_step_text(text.str());
+}
+
+CadShape CadShape::read_step_text(const std::string& text) {
   be_quiet();
   CadShape out;
-  STEPControl_Reader reader;
-  if (reader.ReadFile(path.string().c_str()) != IFSelect_RetDone || reader.TransferRoots() < 1)
-    throw Error(ErrorCode::bad_file, path.string() + ": OpenCASCADE cannot read it");
-  out.impl_->shape = reader.OneShape();
+  try {
+    STEPControl_Reader reader;
+    std::istringstream stream(text);
+    if (reader.ReadStream("layout.step", stream) != IFSelect_RetDone || reader.TransferRoots() < 1)
+      throw Error(ErrorCode::bad_file, "OpenCASCADE cannot read this STEP file");
+    out.impl_->shape = reader.OneShape();
+  } catch (const Standard_Failure& e) {
+    throw Error(ErrorCode::bad_file, std::string("OpenCASCADE cannot read this STEP file: ") + e.GetMessageString());
+  }
   for (TopExp_Explorer e(out.impl_->shape, TopAbs_FACE); e.More(); e.Next())
     out.impl_->face.push_back(TopoDS::Face(e.Current()));
   return out;
@@ -172,7 +187,9 @@ CadCheck CadShape::check() const {
   for (int i = 1; i <= faces_of_edge.Extent(); ++i) {
     const TopoDS_Edge& edge = TopoDS::Edge(faces_of_edge.FindKey(i));
     out.largest_tolerance = std::max(out.largest_tolerance, BRep_Tool::Tolerance(edge));
-    if (faces_of_edge(i).Extent() == 1 && !BRep_Tool::IsClosed(edge, TopoDS::Face(faces_of_edge(i).First())))
+    if (BRep_Tool::Degenerated(edge))
+      ++out.degenerate_edges;
+    else if (faces_of_edge(i).Extent() == 1 && !BRep_Tool::IsClosed(edge, TopoDS::Face(faces_of_edge(i).First())))
       ++out.free_edges;
   }
   GProp_GProps surface, volume;
@@ -220,9 +237,12 @@ std::string CadShape::step_text(const std::string& name, CadUnit unit, const std
   Interface_Static::SetCVal("write.step.unit", unit_name);
   STEPControl_Writer writer;
   Interface_Static::SetCVal("write.step.product.name", name.c_str());
-  // The file's uncertainty: readers drop edges that are shorter.
+  // The file's uncertainty: readers drop edges that are shorter, and images of edges on faces whose ends are farther
+  // than that from the vertices, or their middles farther than twice that from the edge. The images they make instead
+  // do not end where their neighbours begin.
   const EdgeLengths lengths = lengths_of(impl_->shape);
-  writer.SetTolerance(std::max(std::min(lengths.largest_tolerance, lengths.shortest_edge / 20), 1e-7));
+  const Real wanted = std::max(0.6 * lengths.largest_tolerance, 1.1 * impl_->vertex_gap);
+  writer.SetTolerance(std::max(std::min(wanted, lengths.shortest_edge / 3), 1e-7));
   if (writer.Transfer(impl_->shape, STEPControl_AsIs) != IFSelect_RetDone)
     throw Error(ErrorCode::internal, "OpenCASCADE could not translate the model to STEP");
   const Handle(StepData_StepModel) model = writer.Model();
