@@ -24,7 +24,7 @@ struct alignas(32) Coordinates {
 
 // What was walked, for the bodies.
 struct Task {
-  GroupScratch& s;
+  GroupVotingScratch& s;
   const VotingFace* record;
   const Coordinates* at;  // x, y, z of the sources
   std::size_t met, faces;
@@ -49,7 +49,7 @@ INTARSIA_END_SET
 
 }  // namespace
 
-void GroupScratch::make_room(std::size_t vertices, std::size_t faces) {
+void GroupVotingScratch::make_room(std::size_t vertices, std::size_t faces) {
   if (vertex_rings.size() < vertices) vertex_rings.resize(2 * vertices), vertex_reach.resize(2 * vertices);
   if (face.size() < faces) {
     const std::size_t n = 2 * faces;

@@ -14,7 +14,7 @@
 namespace intarsia::kernels {
 
 // Arrays of one group and of one team of it, eight neighbouring sources; kernels/scale/group_voting.inc fills them.
-struct GroupScratch {
+struct GroupVotingScratch {
   struct alignas(64) Rings {
     std::uint8_t of[GroupWalker::kGroup];
   };
@@ -64,7 +64,7 @@ class GroupVoting {
   bool fold_guard_;
   InstructionSet set_;
   GroupWalker walker_;
-  GroupScratch scratch_;
+  GroupVotingScratch scratch_;
 };
 
 }  // namespace intarsia::kernels

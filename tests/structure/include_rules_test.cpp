@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -95,8 +97,7 @@ TEST_CASE("each library is seen by the one folder that wraps it") {
         if (include.ends_with(".hxx")) CHECK(starts(s.path, "tools/step/occt/"));  // OpenCASCADE
         if (starts(include, "spdlog/") || starts(include, "fmt/") || starts(include, "CLI/"))
           CHECK(starts(s.path, "tools/"));
-        if (include == "iostream")
-          CHECK(starts(s.path, "tools/"));
+        if (include == "iostream") CHECK(starts(s.path, "tools/"));
       }
 }
 
@@ -106,6 +107,29 @@ TEST_CASE("no source file is longer than 400 lines") {
       CAPTURE(s.path);
       CHECK(s.lines <= 400);
     }
+}
+
+// Two of them in one program would be one to the linker, which keeps the functions of either.
+TEST_CASE("no two headers define a type of the same name in the same namespace") {
+  const fs::path root = INTARSIA_SOURCE_DIR;
+  const std::regex type("^(?:struct|class|enum class) (?:alignas\\(\\w+\\) )?(\\w+)(?: final)?(?: :[^;]*)? ?\\{.*");
+  std::map<std::string, std::string> home;
+  for (const char* folder : {"engine", "kernels", "graph", "tools"})
+    for (const Source& s : sources(folder)) {
+      if (!s.path.ends_with(".h")) continue;
+      std::ifstream in(root / s.path);
+      std::string within;
+      for (std::string line; std::getline(in, line);) {
+        if (starts(line, "namespace ")) within = line.substr(10, line.find('{') - 10);
+        std::smatch found;
+        if (!std::regex_match(line, found, type)) continue;
+        const auto [at, fresh] = home.emplace(within + found[1].str(), s.path);
+        CAPTURE(at->first);
+        CAPTURE(s.path);
+        CHECK_MESSAGE(fresh, "also in ", at->second);
+      }
+    }
+  CHECK(home.size() > 300);
 }
 
 TEST_CASE("every kernel folder has its tests") {

@@ -99,13 +99,13 @@ Real parameter(const MakeOptions& options, const char* name) {
   throw Error(ErrorCode::internal, "shape " + options.shape + " has no parameter " + name);
 }
 
-Shape build_shape(const MakeOptions& options) {
+MadeShape build_shape(const MakeOptions& options) {
   const auto get = [&](const char* name) { return parameter(options, name); };
   const std::string& name = options.shape;
   const auto demand = [&](bool ok, const char* what) {
     if (!ok) throw Error(ErrorCode::bad_argument, "shape " + name + ": " + what);
   };
-  Shape shape;
+  MadeShape shape;
   if (name == "part") {
     shape.field = part_field(get("fillet"), get("edge"));
   } else if (name == "star") {

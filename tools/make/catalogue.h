@@ -11,7 +11,7 @@
 namespace intarsia::tools {
 
 // A closed shape has a field; a sheet its profile; the sharp cube only its half size.
-struct Shape {
+struct MadeShape {
   std::shared_ptr<const Field> field;
   std::optional<Sheet> sheet;
   Real cube_half = 0;
@@ -20,6 +20,6 @@ struct Shape {
 // The value given, or the default. Requires: checked options.
 Real parameter(const MakeOptions& options, const char* name);
 
-Shape build_shape(const MakeOptions& options);
+MadeShape build_shape(const MakeOptions& options);
 
 }  // namespace intarsia::tools

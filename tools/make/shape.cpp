@@ -14,7 +14,7 @@ namespace {
 
 constexpr Real kPilot = 40'000;  // triangles of the small mesh from which sizes are foretold
 
-std::unique_ptr<MeshSource> source_of(const Work& work, const Shape& shape, Real size, const Disturbance& d) {
+std::unique_ptr<MeshSource> source_of(const Work& work, const MadeShape& shape, Real size, const Disturbance& d) {
   if (shape.field) return std::make_unique<SurfaceNet>(work, shape.field, size, d);
   const std::uint64_t triangles = std::llround(size);
   return shape.sheet ? sheet_grid(*shape.sheet, triangles, d) : cube_grid(shape.cube_half, triangles, d);
@@ -93,7 +93,7 @@ void check(const MakeOptions& options) {
 
 std::unique_ptr<MeshSource> plan_shape(const Work& work, const MakeOptions& options) {
   check(options);
-  const Shape shape = build_shape(options);
+  const MadeShape shape = build_shape(options);
   const Real wanted = static_cast<Real>(options.triangles);
   const auto size_for = [&](Real triangles) {
     return shape.field ? spacing_for(work, *shape.field, triangles, options.seed) : triangles;
@@ -133,7 +133,7 @@ Soup make_shape(const Work& work, const MakeOptions& options) {
 }
 
 struct ShapeDistance::Inside {
-  Shape shape;
+  MadeShape shape;
 };
 
 ShapeDistance::ShapeDistance(const MakeOptions& options) {
@@ -144,7 +144,7 @@ ShapeDistance::ShapeDistance(const MakeOptions& options) {
 ShapeDistance::~ShapeDistance() = default;
 
 Real ShapeDistance::operator()(const Vec3& p) const {
-  const Shape& shape = inside_->shape;
+  const MadeShape& shape = inside_->shape;
   if (shape.sheet) return shape.sheet->profile.distance(p);
   if (!shape.field) {
     const Vec3 q = p.cwiseAbs() - Vec3::Constant(shape.cube_half);
