@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-
-#include "engine/space/point_triangle.h"
 
 namespace intarsia {
 namespace {
@@ -56,28 +53,22 @@ void sample_loops(const Outline& o, Index loop_points, OutlineScratch& s) {
   }
 }
 
-// The nearest triangle of each sample; the distance to the plane of a triangle rules most of them out.
-Real sum_of_squares(const WeightedPoints& samples, std::span<const Vec3> point,
-                    std::span<const std::array<Index, 3>> triangle, std::vector<Vec3>& normal) {
-  normal.clear();
-  for (const auto& [a, b, c] : triangle) {
-    const Vec3 n = (point[b] - point[a]).cross(point[c] - point[a]);
-    const Real length = n.norm();
-    normal.push_back(length > 0 ? Vec3(n / length) : Vec3::Zero());
-  }
+Real sum_of_squares(const WeightedPoints& samples, FewTriangles& triangles) {
   Real sum = 0;
-  for (std::size_t i = 0; i < samples.point.size(); ++i) {
-    const Vec3 p = samples.point[i];
-    Real least = std::numeric_limits<Real>::infinity();
-    for (std::size_t t = 0; t < triangle.size(); ++t) {
-      const auto& [a, b, c] = triangle[t];
-      const Real height = normal[t].dot(p - point[a]);
-      if (height * height < least)
-        least = std::min(least, (p - closest_on_triangle(p, point[a], point[b], point[c])).squaredNorm());
-    }
-    sum += samples.weight[i] * least;
-  }
+  for (std::size_t i = 0; i < samples.point.size(); ++i)
+    sum += samples.weight[i] * triangles.distance2(samples.point[i]);
   return sum;
+}
+
+// With so many points; negative if there is no triangulation.
+Real sampled_error(const Outline& outline, const WeightedPoints& samples, Index points, const OutlineOptions& options,
+                   OutlineScratch& s) {
+  if (points == 0 || outline.loops() == 0) return -1;
+  sample_loops(outline, points, s);
+  const LoopsTriangulation t = triangulate_loops(s.point, s.offset, {}, options.loops, s.polygon);
+  if (!t.ok || t.triangle.empty()) return -1;
+  s.triangles.assign(s.point, t.triangle);
+  return sum_of_squares(samples, s.triangles);
 }
 
 }  // namespace
@@ -89,19 +80,18 @@ Real Outline::length() const {
   return total;
 }
 
-Real outline_error(const Outline& outline, const WeightedPoints& samples, const OutlineOptions& options,
-                   OutlineScratch& s) {
+Real coarse_outline_error(const Outline& outline, const WeightedPoints& samples, const OutlineOptions& options,
+                          OutlineScratch& s) {
   if (samples.point.empty()) return 0;
-  if (outline.loops() > 0) {
-    Real worse = -1;
-    for (const Index points : {options.loop_points, options.second_points}) {
-      if (points == 0) continue;
-      sample_loops(outline, points, s);
-      const LoopsTriangulation t = triangulate_loops(s.point, s.offset, {}, options.loops, s.polygon);
-      if (t.ok && !t.triangle.empty()) worse = std::max(worse, sum_of_squares(samples, s.point, t.triangle, s.normal));
-    }
-    if (worse >= 0) return worse;
-  }
+  return sampled_error(outline, samples, options.second_points, options, s);
+}
+
+Real outline_error(const Outline& outline, const WeightedPoints& samples, const OutlineOptions& options,
+                   OutlineScratch& s, std::optional<Real> coarse) {
+  if (samples.point.empty()) return 0;
+  if (!coarse) coarse = coarse_outline_error(outline, samples, options, s);
+  const Real worse = std::max(*coarse, sampled_error(outline, samples, options.loop_points, options, s));
+  if (worse >= 0) return worse;
   Vec3 mean = Vec3::Zero();
   Real weight = 0;
   for (std::size_t i = 0; i < samples.point.size(); ++i)

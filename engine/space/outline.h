@@ -1,9 +1,11 @@
 // The border of a patch as polylines, and how well the patch is rebuilt from it: the error that subdivision looks at.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "engine/space/few_triangles.h"
 #include "engine/space/triangulate_loops.h"
 
 namespace intarsia {
@@ -37,22 +39,29 @@ struct WeightedPoints {
 
 struct OutlineOptions {
   Index loop_points = 48;  // even steps of the longest loop; all loops together at most about twice as many
-  // The same with another number of points, 0 = not asked; the worse of both counts. Some borders have two very
+  // The same with a smaller number of points, 0 = not asked; the worse of both counts. Some borders have two very
   // different triangulations of nearly equal cost: which one wins must not depend on where the samples fall.
   Index second_points = 37;
   LoopsOptions loops{.polygon = {.exact = false}, .bridges = 1, .combinations = 1};
 };
 
 struct OutlineScratch {
-  std::vector<Vec3> point, normal;
+  std::vector<Vec3> point;
   std::vector<Index> offset;
   PolygonScratch polygon;
+  FewTriangles triangles;
 };
 
 // Sum of weight times squared distance to the triangulation of the sampled loops; an estimate of the integral of the
 // squared distance over the patch. Without a triangulation (or without loops) the distance to the mean of the points.
+// coarse: what coarse_outline_error() says of the same, where it has been asked.
 Real outline_error(const Outline& outline, const WeightedPoints& samples, const OutlineOptions& options,
-                   OutlineScratch& scratch);
+                   OutlineScratch& scratch, std::optional<Real> coarse = {});
+
+// By the sampling that costs less alone: no more than outline_error(), for callers that may then stop asking.
+// Negative: no triangulation.
+Real coarse_outline_error(const Outline& outline, const WeightedPoints& samples, const OutlineOptions& options,
+                          OutlineScratch& scratch);
 
 // Steps of averaging the inner points of a polyline with their neighbours, ends fixed: takes out the zigzag of mesh
 // edges.

@@ -1,6 +1,7 @@
 #include "engine/space/polygon_fan.h"
 
 #include <cmath>
+#include <limits>
 
 namespace intarsia::polygon {
 
@@ -29,6 +30,29 @@ INTARSIA_WIDE void open_fan(const Real* px, const Real* py, const Real* pz, cons
     lanes_at(out.x + m) = nx, lanes_at(out.y + m) = ny, lanes_at(out.z + m) = nz;
     lanes_at(out.left + m) = left, lanes_at(out.right + m) = right, lanes_at(out.sum + m) = area + (left + right);
   }
+}
+
+INTARSIA_WIDE Index first_least(const Real* x, Index from, Index to) {
+  constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
+  constexpr Index kWidth = static_cast<Index>(kLanes);
+  const Index inner = (from + kWidth - 1) / kWidth * kWidth, outer = to / kWidth * kWidth;  // whole lanes between
+  Real least = kInfinity;
+  if (inner < outer) {
+    Lanes low = lanes_at(x + inner);
+    for (Index m = inner + kWidth; m < outer; m += kWidth) {
+      const Lanes here = lanes_at(x + m);
+      low = here < low ? here : low;
+    }
+    for (std::size_t lane = 0; lane < kLanes; ++lane) least = low[lane] < least ? low[lane] : least;
+    for (Index m = from; m < inner; ++m) least = x[m] < least ? x[m] : least;
+    for (Index m = outer; m < to; ++m) least = x[m] < least ? x[m] : least;
+  } else {
+    for (Index m = from; m < to; ++m) least = x[m] < least ? x[m] : least;
+  }
+  if (!(least < kInfinity)) return to;
+  Index at = from;
+  while (x[at] != least) ++at;
+  return at;
 }
 
 INTARSIA_WIDE Real least_with_bend(const PolygonScratch::Pack* pack, Index packs, Real weight, const Real* front,

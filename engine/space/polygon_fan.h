@@ -28,6 +28,10 @@ struct Fan {
 void open_fan(const Real* px, const Real* py, const Real* pz, const Real* ends, Real least_area, const Row& l,
               const Row& r, Index from, Index to, const Fan& out);
 
+// The place of the least number in from .. to, the first of equals; `to` if none is finite. Requires: x aligned for Lanes,
+// whole lanes that may be read around from .. to.
+Index first_least(const Real* x, Index from, Index to);
+
 // Least of `least` and cost + weight * (flags - cosine) over the candidates of a chord. They ascend by cost and a bend
 // adds at least nothing, so the scan ends where the cost alone is no better.
 Real least_with_bend(const PolygonScratch::Pack* pack, Index packs, Real weight, const Real* front, Real least);

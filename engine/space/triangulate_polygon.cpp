@@ -236,12 +236,14 @@ class Dynamic {
     open(i, k, i + 1, k);
     Real best = kInfinity;
     Index apex = kNone;
-    for (Index m = i + 1; m < k; ++m) {
-      Real cost = fan_.sum[m];
-      if constexpr (!Metric::kInFan)
-        cost = Metric::join(cost_[at(i, m)], cost_[at(k, m)]) < best ? Metric::triangle(fan_.area[m]) + sides(i, m, k)
-                                                                     : kInfinity;
-      if (cost < best) best = cost, apex = m;
+    if constexpr (Metric::kInFan) {
+      if (const Index m = first_least(fan_.sum, i + 1, k); m < k) best = fan_.sum[m], apex = m;
+    } else {
+      for (Index m = i + 1; m < k; ++m) {
+        if (!(Metric::join(cost_[at(i, m)], cost_[at(k, m)]) < best)) continue;
+        const Real cost = Metric::triangle(fan_.area[m]) + sides(i, m, k);
+        if (cost < best) best = cost, apex = m;
+      }
     }
     if (apex == kNone) return close(i, k);
     set_head(i, k, best, in_fan(apex), apex, kInfinity);

@@ -132,15 +132,26 @@ GroupShape outline_of_group(const CellComplex& complex, std::span<const Index> c
   return Walk(complex, group_of_cell, moved, scratch).measure(cells);
 }
 
+Real least_group_error(const CellComplex& complex, std::span<const Index> cells, const GroupOptions& options,
+                       GroupScratch& scratch) {
+  scratch.samples.clear();
+  for (const Index cell : cells)
+    for (const Index s : complex.samples.row(cell)) scratch.samples.add(complex.sample[s], complex.weight[s]);
+  scratch.coarse = coarse_outline_error(scratch.outline, scratch.samples, options.outline, scratch.error);
+  return std::max(scratch.coarse, Real{0});
+}
+
+Real group_error(const GroupOptions& options, GroupScratch& scratch) {
+  return outline_error(scratch.outline, scratch.samples, options.outline, scratch.error, scratch.coarse);
+}
+
 GroupShape shape_of_group(const CellComplex& complex, std::span<const Index> cells,
                           std::span<const Index> group_of_cell, const Override& moved, int most_defect,
                           const GroupOptions& options, GroupScratch& scratch) {
   GroupShape shape = outline_of_group(complex, cells, group_of_cell, moved, scratch);
   if (!shape.connected || shape.defect() > most_defect) return shape;
-  scratch.samples.clear();
-  for (const Index cell : cells)
-    for (const Index s : complex.samples.row(cell)) scratch.samples.add(complex.sample[s], complex.weight[s]);
-  shape.error = outline_error(scratch.outline, scratch.samples, options.outline, scratch.error);
+  least_group_error(complex, cells, options, scratch);
+  shape.error = group_error(options, scratch);
   return shape;
 }
 

@@ -44,6 +44,7 @@ struct GroupScratch {
   Outline outline;
   WeightedPoints samples;
   OutlineScratch error;
+  Real coarse = 0;  // as coarse_outline_error() says it
 };
 
 // One cell that is looked at as if it were in another group.
@@ -57,7 +58,13 @@ struct Override {
 GroupShape outline_of_group(const CellComplex& complex, std::span<const Index> cells,
                             std::span<const Index> group_of_cell, const Override& moved, GroupScratch& scratch);
 
-// The same with the error; asks for it only if the group is connected and its defect at most `most_defect`.
+// The error of the group whose outline stands in scratch, in two steps: a lower bound, which costs a third, and the
+// error itself, for whoever still wants it. Requires: the calls before it, in this order, with the same cells.
+Real least_group_error(const CellComplex& complex, std::span<const Index> cells, const GroupOptions& options,
+                       GroupScratch& scratch);
+Real group_error(const GroupOptions& options, GroupScratch& scratch);
+
+// All in one; asks for the error only if the group is connected and its defect at most `most_defect`.
 GroupShape shape_of_group(const CellComplex& complex, std::span<const Index> cells,
                           std::span<const Index> group_of_cell, const Override& moved, int most_defect,
                           const GroupOptions& options, GroupScratch& scratch);

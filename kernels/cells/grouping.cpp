@@ -102,11 +102,10 @@ void Grouping::place(Index cell, Index to) {
 
 bool Grouping::try_move(const Work& work, Index cell, Index to, Real least) {
   const Index from = group_[cell];
-  std::vector<Index> changed = neighbours(from);
-  const auto add = [&](const std::vector<Index>& more) { changed.insert(changed.end(), more.begin(), more.end()); };
-  add(neighbours(to));
+  std::vector<Index> changed{from, to};  // and whoever has the cell across a border: corners may come or go
+  for (const Index h : complex_->cell_halves.row(cell))
+    if (const Index o = complex_->half_cell[h ^ 1]; o != kNone) changed.push_back(group_[o]);
   place(cell, to);
-  add(neighbours(from)), add(neighbours(to)), add({from, to});
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   std::vector<GroupShape> old;

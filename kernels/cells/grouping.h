@@ -38,6 +38,15 @@ class Grouping {
   GroupShape look(std::span<const Index> cells, const Override& moved, int most_defect, GroupScratch& scratch) const {
     return shape_of_group(*complex_, cells, group_, moved, most_defect, options_, scratch);
   }
+  // The same in three steps, each dearer than the one before: the shape without its error, a bound below the error, and
+  // the error. One scratch through all three.
+  GroupShape look_at_border(std::span<const Index> cells, const Override& moved, GroupScratch& scratch) const {
+    return outline_of_group(*complex_, cells, group_, moved, scratch);
+  }
+  Real least_error(std::span<const Index> cells, GroupScratch& scratch) const {
+    return least_group_error(*complex_, cells, options_, scratch);
+  }
+  Real error(GroupScratch& scratch) const { return group_error(options_, scratch); }
 
   void merge(const Work& work, Index into, Index from);
   // Moves a cell if the total cost, corners of the groups around included, falls by more than `least`; otherwise

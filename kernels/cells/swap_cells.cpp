@@ -13,23 +13,42 @@ namespace {
 struct Move {
   Index cell, to;
   Index from_version, to_version;
-  Real gain = 0;  // negative: the total falls
+  Real gain = 0;  // negative: the total falls; kNever if not by enough
 };
 
-Real gain_of(const Grouping& g, Index cell, Index to, GroupScratch& scratch) {
-  constexpr Real kNever = std::numeric_limits<Real>::infinity();
+struct MoveScratch {
+  GroupScratch left, grown;
+  std::vector<Index> rest, more;  // cells of both groups afterwards
+};
+
+constexpr Real kNever = std::numeric_limits<Real>::infinity();
+
+// What the total changes by, if it falls by more than `least`; else kNever. Errors are asked for in steps, and no
+// further once bounds from below say that nothing is won: most moves are bad ones.
+Real gain_of(const Grouping& g, Index cell, Index to, Real least, MoveScratch& s) {
   const Index from = g.group_of(cell);
   if (g.cells(from).size() < 2 || g.is_kept_from(cell, to)) return kNever;
   const Override moved{cell, to};
-  std::vector<Index> cells(g.cells(from).begin(), g.cells(from).end());
-  std::erase(cells, cell);
-  const GroupShape left = g.look(cells, moved, g.shape(from).defect(), scratch);
+  s.rest.assign(g.cells(from).begin(), g.cells(from).end());
+  std::erase(s.rest, cell);
+  GroupShape left = g.look_at_border(s.rest, moved, s.left);
   if (!left.connected || left.defect() > g.shape(from).defect()) return kNever;
-  cells.assign(g.cells(to).begin(), g.cells(to).end());
-  cells.insert(std::lower_bound(cells.begin(), cells.end(), cell), cell);
-  const GroupShape grown = g.look(cells, moved, g.shape(to).defect(), scratch);
+  s.more.assign(g.cells(to).begin(), g.cells(to).end());
+  s.more.insert(std::lower_bound(s.more.begin(), s.more.end(), cell), cell);
+  GroupShape grown = g.look_at_border(s.more, moved, s.grown);
   if (!grown.connected || grown.defect() > g.shape(to).defect()) return kNever;
-  return cost_of(left, g.options()) + cost_of(grown, g.options()) - g.cost(from) - g.cost(to);
+  const auto gain = [&] {
+    return cost_of(left, g.options()) + cost_of(grown, g.options()) - g.cost(from) - g.cost(to);
+  };
+  if (gain() >= -least) return kNever;
+  grown.error = g.least_error(s.more, s.grown);
+  if (gain() >= -least) return kNever;
+  left.error = g.least_error(s.rest, s.left);
+  if (gain() >= -least) return kNever;
+  grown.error = g.error(s.grown);
+  if (gain() >= -least) return kNever;
+  left.error = g.error(s.left);
+  return gain();
 }
 
 // Cells beside another group, with every group they could go to; gains already known are kept.
@@ -71,7 +90,7 @@ SwapResult swap_cells(const Work& work, const SwapOptions& options, Grouping& g)
   constexpr Real kNothing = 1e-13;  // diagonals^4: what rounding makes of patches that are rebuilt exactly
   const Real least = std::max(kNothing, options.least_gain * result.before / std::max<Index>(1, g.alive()));
   const Index most = static_cast<Index>(options.sweeps) * g.complex().cells();
-  auto pool = make_scratch_pool([] { return GroupScratch(); });
+  auto pool = make_scratch_pool([] { return MoveScratch(); });
   std::vector<Move> moves;
   std::vector<Index> open, best;
   std::vector<std::uint8_t> busy;
@@ -84,7 +103,7 @@ SwapResult swap_cells(const Work& work, const SwapOptions& options, Grouping& g)
       auto scratch = pool.borrow();
       for (std::size_t k = begin; k < end; ++k) {
         Move& m = moves[open[k]];
-        m.gain = gain_of(g, m.cell, m.to, *scratch);
+        m.gain = gain_of(g, m.cell, m.to, least, *scratch);
         m.from_version = g.version(g.group_of(m.cell));
       }
     });

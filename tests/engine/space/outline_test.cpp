@@ -75,3 +75,19 @@ TEST_CASE("smoothing keeps the ends, straight lines, and takes out a zigzag") {
   for (std::size_t k = 1; k < zigzag.size(); ++k) length += (zigzag[k] - zigzag[k - 1]).norm();
   CHECK(length < 2.01);  // from 2.24
 }
+
+TEST_CASE("the coarse error is no more than the error, which does not mind being told it") {
+  Outline o;
+  for (int k = 0; k <= 200; ++k) {
+    const Real a = 2 * std::numbers::pi * k / 200;
+    o.point.emplace_back(std::cos(a), std::sin(a), 0.3 * std::sin(3 * a));
+  }
+  o.end_piece(), o.end_loop();
+  WeightedPoints samples;
+  for (int k = 0; k < 60; ++k) samples.add({0.9 * std::cos(k), 0.9 * std::sin(k), 0.1 * std::cos(2.0 * k)}, 0.05);
+  OutlineScratch scratch;
+  const Real coarse = coarse_outline_error(o, samples, {}, scratch), all = outline_error(o, samples, {}, scratch);
+  CHECK(coarse > 0);
+  CHECK(coarse <= all);
+  CHECK(outline_error(o, samples, {}, scratch, coarse) == all);
+}

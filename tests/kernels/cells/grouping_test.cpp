@@ -100,3 +100,52 @@ TEST_CASE("refinement lowers the cost, keeps discs, and does not depend on threa
   CHECK(run(2) == one);
   CHECK(run(4) == one);
 }
+
+TEST_CASE("after refinement every group has the shape that it has when looked at anew") {
+  const CellMesh m = cell_mesh(icosphere(4), [](const Vec3& p, const Vec3&) {
+    return static_cast<Index>(5 * (p.x() + 1)) + 16 * static_cast<Index>(5 * (p.y() + 1)) +
+           256 * static_cast<Index>(3 * (p.z() + 1));
+  });
+  Grouping g(Work(), m.complex, identity(m.cells.count), m.cells.count, {});
+  g.weigh(9);
+  merge_groups(Work(), 9, g);
+  std::vector<Index> name(g.size(), kNone), group;
+  Index groups = 0;
+  for (Index c = 0; c < m.cells.count; ++c) {
+    Index& n = name[g.group_of(c)];
+    if (n == kNone) n = groups++;
+    group.push_back(n);
+  }
+  Grouping refined(Work(), m.complex, group, groups, g.options());
+  CHECK(swap_cells(Work(), {}, refined).moves > 0);
+  const Grouping anew(Work(), m.complex, {refined.group_of_cell().begin(), refined.group_of_cell().end()}, groups,
+                      g.options());
+  for (Index k = 0; k < groups; ++k) {
+    CHECK(refined.shape(k).error == anew.shape(k).error);
+    CHECK(refined.shape(k).perimeter == anew.shape(k).perimeter);
+  }
+}
+
+TEST_CASE("the first merge is the cheapest of all unions that are discs") {
+  const CellMesh m = cell_mesh(icosphere(3), [](const Vec3& p, const Vec3&) {
+    return static_cast<Index>(3 * (p.x() + 1)) + 16 * static_cast<Index>(2 * (p.y() + 1)) +
+           256 * static_cast<Index>(2 * (p.z() + 1));
+  });
+  Grouping g(Work(), m.complex, identity(m.cells.count), m.cells.count, {});
+  g.weigh(12);
+  GroupScratch scratch;
+  Real least = 1e300;
+  std::pair<Index, Index> cheapest{kNone, kNone};
+  for (Index a = 0; a < g.size(); ++a)
+    for (const Index b : g.neighbours(a)) {
+      if (b < a) continue;
+      const std::vector<Index> both{a, b};
+      const GroupShape u = g.look(both, {}, 0, scratch);
+      if (!u.connected || u.defect() > 0) continue;
+      const Real cost = cost_of(u, g.options()) - g.cost(a) - g.cost(b);
+      if (cost < least) least = cost, cheapest = {a, b};
+    }
+  REQUIRE(cheapest.first != kNone);
+  CHECK(merge_groups(Work(), g.alive() - 1, g).empty());
+  CHECK(g.group_of(cheapest.first) == g.group_of(cheapest.second));
+}
