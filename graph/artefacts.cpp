@@ -1,5 +1,6 @@
 #include "graph/artefacts.h"
 
+#include <cstdio>
 #include <numbers>
 
 #include "engine/parallel/hash_array.h"
@@ -96,6 +97,27 @@ std::vector<Warning> warnings_of(const Surface& a) {
              " degrees): features were looked for on a filtered copy; results keep the input's positions",
          1,
          {}});
+  return warnings;
+}
+std::vector<Warning> warnings_of(const Guides& a) {
+  constexpr Real kFar = 0.005;  // diagonals; curves drawn on the surface are much nearer
+  std::vector<Warning> warnings;
+  if (a.gaps > 0)
+    warnings.push_back({"curve-gap",
+                        "given curves cannot go on in " + std::to_string(a.gaps) +
+                            (a.gaps == 1 ? " place" : " places") +
+                            ", where the surface has a hole: they begin anew behind it",
+                        a.gaps,
+                        {}});
+  if (a.farthest > kFar) {
+    char percent[32];
+    std::snprintf(percent, sizeof percent, "%.2g", 100 * a.farthest);
+    warnings.push_back({"curve-far",
+                        std::string("points of given curves are up to ") + percent +
+                            " % of the diagonal from the surface; they were put onto the nearest place",
+                        1,
+                        {}});
+  }
   return warnings;
 }
 std::vector<Warning> warnings_of(const Goal& a) { return as_warnings("tolerance", a.warnings); }

@@ -112,6 +112,7 @@ struct Guides {
   std::vector<Index> pin;  // per face: pinned region, kNone where it is in none; empty: none is pinned
   Index regions = 0;       // pinned, connected or not
   Real farthest = 0;       // of the polylines' points from the surface, diagonals
+  Index gaps = 0;          // places where a polyline could not go on, at holes; it begins anew behind them
 };
 
 // curves -> goal: how many patches are wanted.
@@ -170,6 +171,7 @@ struct Layout {
 };
 
 std::vector<Warning> warnings_of(const Surface& a);  // one for each kind of mending
+std::vector<Warning> warnings_of(const Guides& a);   // holes in the way, points far from the surface
 std::vector<Warning> warnings_of(const Goal& a);
 std::vector<Warning> warnings_of(const Network& a);
 std::vector<Warning> warnings_of(const Patches& a);

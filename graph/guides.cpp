@@ -39,7 +39,7 @@ Guides surface_to_guides(const Work& work, const Surface& surface, const GivenGu
     for (auto& polyline : unit)
       for (Vec3& p : polyline) p = surface.box.to_unit(p);
     kernels::LaidCurves laid = kernels::lay_curves(work, surface.mesh, surface.mean_edge, unit);
-    g.curves = std::move(laid.net), g.farthest = laid.farthest;
+    g.curves = std::move(laid.net), g.farthest = laid.farthest, g.gaps = laid.gaps;
   }
   if (given.pin.empty()) return g;
   if (given.pin.size() != surface.input_triangles)

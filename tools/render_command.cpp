@@ -8,8 +8,11 @@
 #include "tools/interrupt.h"
 #include "tools/layout_handover.h"
 #include "tools/picture/best_view.h"
+#include "tools/picture/colour_map.h"
 #include "tools/picture/png_file.h"
 #include "tools/picture/shade.h"
+#include "tools/read_deviation.h"
+#include "tools/view/read_page.h"
 #include "tools/view_flag.h"
 
 namespace intarsia::tools {
@@ -65,13 +68,58 @@ Lines arc_lines(const LayoutView& layout, const RenderFlags& flags, Real scale) 
   return lines;
 }
 
+Lines feature_lines_of(const PageLines& from, const RenderFlags& flags, Real scale) {
+  Lines lines;
+  for (std::size_t l = 0; l < from.count(); ++l) {
+    LineStyle style = flags.lines == "plain" ? LineStyle{{44, 44, 50}, 1.7f} : style_of(from.kind[l]);
+    style.width *= static_cast<float>(scale * flags.line_width);
+    lines.add(from.line(l), style);
+  }
+  return lines;
+}
+
+struct DeviationColours {
+  std::vector<Rgb> face;  // of the input's triangles
+  ColourScale scale;
+};
+
+DeviationColours deviation_colours(const Work& work, const RenderFlags& flags, const LayoutView& layout) {
+  const std::filesystem::path path = std::filesystem::path(flags.input) / "deviation.ply";
+  std::vector<Real> percent = read_face_deviation(work, path), area;
+  const MeshView mesh = layout.mesh;
+  if (percent.size() != mesh.face_count())
+    throw Error(ErrorCode::bad_file,
+                fmt::format("{}: it has {} triangles, the result {}; let intarsia eval {} write it again",
+                            path.string(), percent.size(), mesh.face_count(), flags.input));
+  for (Real& p : percent) p *= 100 / layout.diagonal;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto c = mesh.face(f);
+    area.push_back((mesh.point(c[1]) - mesh.point(c[0])).cross(mesh.point(c[2]) - mesh.point(c[0])).norm() / 2);
+  }
+  DeviationColours out;
+  out.scale = scale_for(percent, area, "distance, % of the diagonal");
+  out.face = colours_of(work, percent, out.scale);
+  return out;
+}
+
+// Pictures from this height on carry the scale of their colours.
+constexpr int kLeastWithScale = 240;
+
 Image draw(const Work& work, const RenderFlags& flags, int width, int height) {
   const auto result = LayoutHandover::read(work, flags.input);
   const LayoutView& layout = result->handover().layout;
   std::vector<Rgb> colour;
   for (const auto& c : layout.patch_colour) colour.push_back({c[0], c[1], c[2]});
   Shape shape = shape_of(layout.refined->mesh.view());
-  if (flags.stage == "patches") shape.face_label = layout.labels->patch_of_face, shape.label_colour = colour;
+  DeviationColours deviation;
+  const bool with_scale = flags.stage == "deviation" && height >= kLeastWithScale;
+  if (with_scale) height -= kScaleBarHeight;
+  if (flags.stage == "patches") {
+    shape.face_label = layout.labels->patch_of_face, shape.label_colour = colour;
+  } else if (flags.stage == "deviation") {
+    deviation = deviation_colours(work, flags, layout);
+    shape = shape_of(layout.mesh), shape.face_colour = deviation.face;
+  }
   FitOptions fit;
   fit.width = width, fit.height = height, fit.margin = 0.03 * std::min(width, height);
   fit.perspective = flags.perspective;
@@ -79,8 +127,16 @@ Image draw(const Work& work, const RenderFlags& flags, int width, int height) {
   Camera camera = fit_camera(work, shape, view, fit);
   camera.scale *= flags.zoom;
   const Real scale = std::min(width, height) / 560.;  // widths of lines are for that size
-  const bool with_lines = flags.lines != "none" && flags.stage != "input";
-  return render(work, shape, with_lines ? arc_lines(layout, flags, scale) : Lines(), camera, flags.samples);
+  Lines lines;
+  if (flags.stage == "raw" || flags.stage == "filtered") {
+    const PageFeatures features =
+        read_page_features(std::filesystem::path(flags.input) / "view.html", grid_of(layout.refined->mesh));
+    lines = feature_lines_of(flags.stage == "raw" ? features.raw : features.chosen, flags, scale);
+  } else if (flags.stage != "input") {
+    lines = arc_lines(layout, flags, scale);
+  }
+  const Image image = render(work, shape, flags.lines == "none" ? Lines() : lines, camera, flags.samples);
+  return with_scale ? with_scale_bar(image, deviation.scale) : image;
 }
 
 int run_render(const RenderFlags& flags) {
@@ -102,8 +158,11 @@ void add_render_command(CLI::App& app, int& exit_code) {
   command->add_option("input", flags->input, "folder written by intarsia run")->required();
   command->add_option("-o,--output", flags->output, "picture: .png")->required();
   command->add_option("--size", flags->size, "pixels, WIDTHxHEIGHT")->capture_default_str();
-  command->add_option("--stage", flags->stage, "input: the surface; network: with the curves by kind; patches")
-      ->check(CLI::IsMember({"input", "network", "patches"}))
+  command
+      ->add_option("--stage", flags->stage,
+                   "input: the surface; raw: all ridges and valleys; filtered: those that were chosen; network: the "
+                   "borders by kind; patches; deviation: of the rebuilt surface, after intarsia eval")
+      ->check(CLI::IsMember({"input", "raw", "filtered", "network", "patches", "deviation"}))
       ->capture_default_str();
   auto* view = command->add_option("--view", flags->view, "azimuth and elevation, degrees, z up; default: chosen");
   view->expected(2)->delimiter(',')->check(CLI::Range(-360.0, 360.0));

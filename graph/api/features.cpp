@@ -39,13 +39,12 @@ class Gather {
 void make_features(const TriangleMesh& mesh, const Options& options, Features& out) {
   graph::LayoutOptions method = call::layout_options(options);
   method.scale.keep_variation = true;
-  if (options.time_limit > 0)
-    throw Error(ErrorCode::bad_argument, "features have no time limit: there is nothing to leave out");
-  call::Run run(options);
+  call::Run run(options, options.time_limit);
   const Port<Soup> soup = run.add_read(mesh, &graph::kFeaturesCost, options.max_memory);
   const graph::FeaturePorts ports = graph::add_feature_stages(run.flow(), soup, method);
   const auto finish = [&](const Work& work, const Soup& s, const graph::Surface& surface, const graph::Scale& scale,
                           const graph::Curvature& curvature) {
+    run.stop_clock();
     const std::vector<Index> from = graph::surface_vertices(work, s, surface);
     const CurvatureFields& k = curvature.fields;
     const Real per_length = 1 / surface.box.diagonal, per_area = per_length * per_length;

@@ -272,7 +272,7 @@ struct Features {
 };
 
 /// Scale, curvature and extremality of every vertex. Options::patches and the like are not looked at.
-/// Errors: as layout().
+/// Errors: as layout(); out_of_time if there are no features within the time limit (nothing can be left out for it).
 INTARSIA_API Result<Features> features(const TriangleMesh& mesh, const Options& options = {}) noexcept;
 
 /// Options of distance().

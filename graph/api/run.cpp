@@ -131,7 +131,7 @@ void Run::run() {
   } catch (const Error& e) {
     if (e.code() != ErrorCode::cancelled) throw;
     if (limit_ && limit_->has_expired())
-      throw Error(ErrorCode::out_of_time, "no layout within the time limit; allow more time, or simplify the mesh");
+      throw Error(ErrorCode::out_of_time, "no result within the time limit; allow more time, or simplify the mesh");
     if (listener_failed_) throw Error(ErrorCode::cancelled, "the progress function threw; the call was cancelled");
     throw Error(ErrorCode::cancelled, "the call was cancelled");
   }

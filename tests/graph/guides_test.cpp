@@ -108,6 +108,31 @@ TEST_CASE("pins that are not one for each triangle are refused") {
   CHECK_THROWS_AS(graph::surface_to_guides(Work(), surface, given), Error);
 }
 
+TEST_CASE("curves over a hole and far from the surface are kept, with a warning each") {
+  // A plate with a square hole in the middle; a straight curve across it, and one 2 % above the plate.
+  Soup plate = test::plane(20, 20);
+  std::vector<Index> corner;
+  for (Index f = 0; f < plate.face_count(); ++f) {
+    Vec3 middle = Vec3::Zero();
+    for (int i = 0; i < 3; ++i) middle += test::point(plate, plate.corner[3 * f + i]) / 3;
+    if ((middle - Vec3(0.5, 0.5, 0)).cwiseAbs().maxCoeff() > 0.2)
+      corner.insert(corner.end(), plate.corner.begin() + 3 * f, plate.corner.begin() + 3 * f + 3);
+  }
+  plate.corner = corner;
+  const graph::Surface surface = graph::mesh_to_surface(Work(), plate);
+  const auto codes = [&](const std::vector<Vec3>& curve) {
+    graph::GivenGuides given;
+    given.curve = {curve};
+    std::vector<std::string> out;
+    for (const Warning& w : warnings_of(graph::surface_to_guides(Work(), surface, given))) out.push_back(w.code);
+    return out;
+  };
+  CHECK(codes({{0.1, 0.1, 0}, {0.9, 0.1, 0}}).empty());
+  CHECK(codes({{0.1, 0.5, 0}, {0.9, 0.5, 0}}) == std::vector<std::string>{"curve-gap"});
+  const Real high = 0.02 * surface.box.diagonal;
+  CHECK(codes({{0.1, 0.1, high}, {0.9, 0.1, high}}) == std::vector<std::string>{"curve-far"});
+}
+
 TEST_CASE("with a tolerance the number of patches follows from it") {
   const Soup soup = kCube.mesh(0.15, 3);
   Index before = 0;

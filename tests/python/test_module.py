@@ -235,6 +235,8 @@ def test_options():
         intarsia.layout(V, F, max_memory=1000)
     with pytest.raises(TimeoutError):
         intarsia.layout(V, F, time_limit=1e-9)
+    with pytest.raises(TimeoutError):
+        intarsia.features(V, F, time_limit=1e-9)
     r = intarsia.layout(V, F, options={"smooth.iterations": 2}, min_feature=0.001)
     assert r.report["options"]["smooth.iterations"] == {"given": True, "value": 2}
     known = intarsia.method_options()

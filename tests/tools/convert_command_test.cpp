@@ -73,7 +73,7 @@ TEST_CASE("view finds the page, render draws without a display, eval adds the de
   CHECK(missing.status == kExitUnreadable);
   CHECK(missing.err.find("convert") != std::string::npos);
 
-  for (const char* stage : {"input", "network", "patches"}) {
+  for (const char* stage : {"input", "raw", "filtered", "network", "patches", "deviation"}) {
     CAPTURE(stage);
     const std::string file = dir / (std::string(stage) + ".png");
     REQUIRE(intarsia({"render", dir / "out", "-o", file, "--size", "160x120", "--stage", stage, "--camera", "1,2,3",
@@ -85,6 +85,25 @@ TEST_CASE("view finds the page, render draws without a display, eval adds the de
   }
   CHECK(test::file_text(dir / "input.png") != test::file_text(dir / "network.png"));
   CHECK(test::file_text(dir / "network.png") != test::file_text(dir / "patches.png"));
+  CHECK(test::file_text(dir / "raw.png") != test::file_text(dir / "input.png"));
+  CHECK(test::file_text(dir / "filtered.png") != test::file_text(dir / "input.png"));
+  CHECK(test::file_text(dir / "deviation.png") != test::file_text(dir / "network.png"));
+  // A picture with the scale of its colours has the size asked for too.
+  REQUIRE(intarsia({"render", dir / "out", "-o", dir / "scale.png", "--size", "320x300", "--stage", "deviation",
+                    "--samples", "1"})
+              .status == kExitDone);
+  CHECK(test::file_text(dir / "scale.png").substr(16, 8) == std::string("\0\0\x01\x40\0\0\x01\x2c", 8));
+  // What a stage is drawn from may not be there: the message says which command makes it.
+  std::filesystem::remove(dir / "out/view.html"), std::filesystem::remove(dir / "out/deviation.ply");
+  for (const auto& [stage, command] : {std::pair<const char*, const char*>{"raw", "--write html"},
+                                       {"filtered", "--write html"},
+                                       {"deviation", "intarsia eval"}}) {
+    CAPTURE(stage);
+    const auto absent = intarsia({"render", dir / "out", "-o", dir / "absent.png", "--stage", stage});
+    CHECK(absent.status == kExitUnreadable);
+    CHECK(absent.err.find(command) != std::string::npos);
+    CHECK(!std::filesystem::exists(dir / "absent.png"));
+  }
   for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{{"--size", "160"},
                                                                                      {"--camera", "1,2"},
                                                                                      {"--camera", "0,0,0"},

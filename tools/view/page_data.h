@@ -7,7 +7,7 @@
 #include <cstring>
 #include <string>
 
-#include "engine/base/types.h"
+#include "engine/data/mesh.h"
 
 namespace intarsia::tools {
 
@@ -45,6 +45,9 @@ struct PageGrid {
   }
 };
 
+// The grid of a page, over its refined mesh.
+PageGrid grid_of(const MeshView& mesh);
+
 // Successive points.
 class PagePath {
  public:
@@ -64,5 +67,7 @@ class PagePath {
 };
 
 std::string base64(const std::string& bytes);
+// Empty where the text is not base64.
+std::string bytes_of_base64(const std::string& text);
 
 }  // namespace intarsia::tools

@@ -20,15 +20,6 @@ namespace {
 
 using nlohmann::json;
 
-PageGrid grid_of(const MeshView& mesh) {
-  PageGrid grid;
-  grid.low = grid.high = mesh.point(mesh.corner.front());
-  for (const Index v : mesh.corner)
-    grid.low = grid.low.cwiseMin(mesh.point(v)), grid.high = grid.high.cwiseMax(mesh.point(v));
-  grid.step = (grid.high - grid.low).maxCoeff() / kPageSteps;
-  return grid;
-}
-
 PageBytes surface_bytes(const PageSurface& surface, const PageGrid& grid) {
   PageBytes to;
   to.whole(static_cast<Index>(surface.point.size()));

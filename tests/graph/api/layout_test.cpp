@@ -130,6 +130,9 @@ TEST_CASE("what is wrong comes back as a status that names it") {
     Options options;
     options.time_limit = 1e-9;
     CHECK(layout(cube.view(), options).status.code == StatusCode::out_of_time);
+    CHECK(features(cube.view(), options).status.code == StatusCode::out_of_time);
+    options.time_limit = 1000;
+    CHECK(features(cube.view(), options).status.code == StatusCode::ok);
   }
   SUBCASE("a negative number of threads") {
     Options options;

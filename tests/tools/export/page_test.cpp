@@ -7,6 +7,7 @@
 #include "tests/tools/export/labelled_cube.h"
 #include "tools/view/page_data.h"
 #include "tools/view/page_surface.h"
+#include "tools/view/read_page.h"
 #include "tools/view/write_page.h"
 
 using namespace intarsia;
@@ -113,6 +114,41 @@ TEST_CASE("the page holds the cube: faces by patch, places on the grid, twelve a
   Decoder features(part(page, "features-data"));
   CHECK(features.whole() == 1);
   CHECK(features.whole() == 2);
+}
+
+TEST_CASE("the page's lines are read back, and damaged ones refused") {
+  const test::LabelledCube cube;
+  const test::ProgramFolder dir("page");
+  write_page(Work(), dir / "view.html", cube.handover);
+  const LayoutView& layout = cube.handover.layout;
+  const PageGrid grid = grid_of(layout.refined->mesh);
+  const PageFeatures read = read_page_features(dir / "view.html", grid);
+  REQUIRE(read.raw.count() == 1);
+  REQUIRE(read.chosen.count() == 1);
+  CHECK(read.raw.kind[0] == CurveKind::ridge);
+  CHECK(read.chosen.kind[0] == CurveKind::valley);
+  REQUIRE(read.raw.line(0).size() == 2);
+  REQUIRE(read.chosen.line(0).size() == 3);
+  const auto in_input = [&](const Vec3& p) -> Vec3 { return layout.centre + layout.diagonal * p; };
+  for (std::size_t i = 0; i < 2; ++i)
+    CHECK((in_input(read.raw.point[i]) - cube.features.point[i]).norm() < 2 * grid.step * layout.diagonal);
+  for (std::size_t i = 0; i < 3; ++i)
+    CHECK((in_input(read.chosen.point[i]) - cube.features.point[2 + i]).norm() < 2 * grid.step * layout.diagonal);
+
+  const std::string bytes = bytes_of_base64(part(test::file_text(dir / "view.html"), "features-data"));
+  CHECK(base64(bytes) == part(test::file_text(dir / "view.html"), "features-data"));
+  for (std::size_t n = 0; n < bytes.size(); ++n) {
+    // The network's lines come last and are not read here: cuts that reach the others are found.
+    try {
+      page_features(dir / "view.html", std::string_view(bytes).substr(0, n), grid);
+    } catch (const Error& e) {
+      CHECK(e.code() == ErrorCode::bad_file);
+    }
+  }
+  CHECK_THROWS_AS(page_features(dir / "view.html", std::string_view(bytes).substr(0, 5), grid), Error);
+  CHECK_THROWS_AS(page_features(dir / "view.html", "\xff\xff\xff\xff\xff\xff", grid), Error);
+  CHECK(bytes_of_base64("a?b=").empty());
+  CHECK(bytes_of_base64("abc").empty());
 }
 
 TEST_CASE("a page without the run's lines takes them from the earlier page") {

@@ -158,11 +158,11 @@ def layout(V: Any, F: Any, patches: Optional[int] = None, *, tolerance: Union[No
 
 
 def features(V: Any, F: Any, *, min_feature: Union[None, str, float] = None, mode: str = "robust", threads: int = 0,
-             max_memory: int = 0, strict: bool = False, options: Optional[Mapping[str, float]] = None,
-             progress: Optional[ProgressFunction] = None) -> Features:
+             max_memory: int = 0, time_limit: float = 0, strict: bool = False,
+             options: Optional[Mapping[str, float]] = None, progress: Optional[ProgressFunction] = None) -> Features:
     """Scale, curvature and extremality of every vertex. Arguments and exceptions as in layout()."""
     V, F = _positions(V), _triangles(F)
-    given = _options(None, min_feature, mode, "automatic", threads, 0, max_memory, 0, strict, options)
+    given = _options(None, min_feature, mode, "automatic", threads, 0, max_memory, time_limit, strict, options)
     return Features(**_result(_core.features(V, F, given, progress)))
 
 
