@@ -63,12 +63,12 @@ void add_config_flags(CLI::App& app, CommonFlags& flags) {
 
 void apply_config(CLI::App& command, const std::string& file) {
   if (file.empty()) return;
-  const auto fail = [&](const std::string& why) { throw Error(ErrorCode::bad_argument, file + ": " + why); };
+  const auto bad = [&](const std::string& why) { return Error(ErrorCode::bad_argument, file + ": " + why); };
   std::vector<CLI::ConfigItem> items;
   try {
     items = CLI::ConfigTOML().from_file(file);
   } catch (const CLI::Error& e) {
-    fail(e.what());
+    throw bad(e.what());
   }
   for (const CLI::ConfigItem& item : items) {
     if (item.name == "++" || item.name == "--") continue;  // where sections begin and end
@@ -76,14 +76,14 @@ void apply_config(CLI::App& command, const std::string& file) {
     CLI::Option* option = find(command, name);
     if (option == nullptr || name == "help" || name == "config") {
       const std::string near = likely_word(name, names_of(command));
-      fail("there is no option '" + name + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?"));
+      throw bad("there is no option '" + name + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?"));
     }
     if (option->count() > 0) continue;
     try {
       for (const std::string& value : item.inputs) option->add_result(value);
       option->run_callback();
     } catch (const CLI::Error& e) {
-      fail("'" + name + "': " + e.what());
+      throw bad("'" + name + "': " + e.what());
     }
   }
 }

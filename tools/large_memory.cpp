@@ -83,9 +83,10 @@ class LargeMemory {
     void* raw = ::mmap(nullptr, kGrains * kGrain + kHugePage, PROT_READ | PROT_WRITE,
                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (raw == MAP_FAILED) return false;
-    const std::uintptr_t start = (reinterpret_cast<std::uintptr_t>(raw) + kHugePage - 1) / kHugePage * kHugePage;
-    ::madvise(reinterpret_cast<void*>(start), kGrains * kGrain, MADV_HUGEPAGE);
-    base_.store(reinterpret_cast<char*>(start));
+    const std::size_t past = reinterpret_cast<std::uintptr_t>(raw) % kHugePage;
+    char* start = static_cast<char*>(raw) + (past > 0 ? kHugePage - past : 0);
+    ::madvise(start, kGrains * kGrain, MADV_HUGEPAGE);
+    base_.store(start);
     return true;
   }
 

@@ -313,7 +313,8 @@ class Dynamic {
   PolygonScratch& scratch_;
   const BridgedLoops* bridged_;
   Real least_area_ = 0;
-  Real *cost_, *weight_, *flag_, *nx_, *ny_, *nz_, *second_;  // second_: least cost in the packs
+  Real *cost_ = nullptr, *weight_ = nullptr, *flag_ = nullptr, *nx_ = nullptr, *ny_ = nullptr, *nz_ = nullptr;
+  Real* second_ = nullptr;  // least cost in the packs
   Real *x_, *y_, *z_;
   Fan fan_;
 };

@@ -55,7 +55,7 @@ std::vector<Index> fill_gap(const MeshView& mesh, Index p, Index q, std::span<co
   std::vector<Index> chain{p};
   const Index base = curves.point_count();
   curves.resize_points(base + vertices.size());
-  std::vector<Real> way{0};
+  std::vector<Real> way(1, 0);
   Vec3 last = position(mesh, curves.net.point[p]);
   for (Index v : vertices) way.push_back(way.back() + (mesh.point(v) - last).norm()), last = mesh.point(v);
   const Real total = way.back() + (position(mesh, curves.net.point[q]) - last).norm();

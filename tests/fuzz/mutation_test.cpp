@@ -87,7 +87,8 @@ void mutate(Dice& dice, std::string& bytes, const std::vector<std::string>& seed
       break;
     default: {
       const std::string& other = seeds[dice(seeds.size())];
-      bytes = bytes.substr(0, at) + other.substr(std::min(other.size(), dice(other.size() + 1)));
+      bytes.resize(at);
+      bytes += other.substr(std::min(other.size(), dice(other.size() + 1)));
     }
   }
 }
