@@ -62,10 +62,11 @@ TEST_CASE("given curves and pinned regions are kept exactly, whatever the number
   const Real diagonal = 20 * std::sqrt(3.0);
   const std::pair<graph::SubdivideForm, Index> kAsked[] = {
       {graph::SubdivideForm::compact, 0}, {graph::SubdivideForm::compact, 18}, {graph::SubdivideForm::quality, 11}};
-  for (const auto& [form, patches] : kAsked) {
+  for (const auto& asked : kAsked) {
+    const Index patches = asked.second;
     CAPTURE(patches);
     graph::LayoutOptions options = graph::robust_options();
-    options.patches = patches, options.form = form;
+    options.patches = patches, options.form = asked.first;
     const graph::Layout layout = layout_with(soup, options, 2);
     CHECK(layout.checks.is_valid());
     for (const int pin : {3, 7}) {

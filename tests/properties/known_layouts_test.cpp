@@ -35,7 +35,9 @@ void check_valid(const LayoutRun& run) {
 
 TEST_CASE("sphere, plane, torus and a noisy sphere have no features and still get a layout of discs") {
   const std::pair<const char*, Real> cases[] = {{"sphere", 0}, {"plane", 0}, {"torus", 0}, {"sphere", 0.1}};
-  for (const auto& [shape, noise] : cases) {
+  for (const auto& known : cases) {
+    const char* shape = known.first;
+    const Real noise = known.second;
     CAPTURE(shape);
     CAPTURE(noise);
     const LayoutRun run = run_layout(made(shape, 20'000, noise), graph::robust_options());

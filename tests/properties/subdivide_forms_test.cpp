@@ -31,9 +31,10 @@ LayoutRun run_form(const Soup& soup, SubdivideForm form, Index patches, int thre
 TEST_CASE("compact, quality and faithful give exactly the wanted number of discs, the same for 1 and 3 threads") {
   for (const char* shape : {"part", "star"}) {
     const Soup soup = sample(shape);
-    for (const auto& [form, name] :
+    for (const auto& [form, word] :
          {std::pair{SubdivideForm::compact, "compact"}, std::pair{SubdivideForm::quality, "quality"},
           std::pair{SubdivideForm::faithful, "faithful"}}) {
+      const char* name = word;
       CAPTURE(shape);
       CAPTURE(name);
       const Index wanted = 14;

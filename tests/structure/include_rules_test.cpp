@@ -123,10 +123,10 @@ TEST_CASE("no two headers define a type of the same name in the same namespace")
         if (starts(line, "namespace ")) within = line.substr(10, line.find('{') - 10);
         std::smatch found;
         if (!std::regex_match(line, found, type)) continue;
-        const auto [at, fresh] = home.emplace(within + found[1].str(), s.path);
-        CAPTURE(at->first);
+        const auto entry = home.emplace(within + found[1].str(), s.path);
+        CAPTURE(entry.first->first);
         CAPTURE(s.path);
-        CHECK_MESSAGE(fresh, "also in ", at->second);
+        CHECK_MESSAGE(entry.second, "also in ", entry.first->second);
       }
     }
   CHECK(home.size() > 300);

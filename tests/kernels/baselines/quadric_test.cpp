@@ -59,9 +59,10 @@ const std::vector<std::pair<QuadricType, Place>> kShapes = {{QuadricType::plane,
 }  // namespace
 
 TEST_CASE("each type is exact on samples of itself, and its gradient is the normal") {
-  for (const auto& [type, place] : kShapes) {
+  for (const auto& shape : kShapes) {
+    const QuadricType type = shape.first;
     CAPTURE(static_cast<int>(type));
-    const auto samples = samples_of(place);
+    const auto samples = samples_of(shape.second);
     const Quadric q = fit_quadric(samples, type, 0.01);
     CHECK(q.type == type);
     for (const auto& s : samples) {
@@ -73,11 +74,12 @@ TEST_CASE("each type is exact on samples of itself, and its gradient is the norm
 }
 
 TEST_CASE("the ladder takes the simplest type that fits") {
-  for (const auto& [type, place] : kShapes) {
+  for (const auto& shape : kShapes) {
+    const QuadricType type = shape.first;
     CAPTURE(static_cast<int>(type));
     QuadricOptions options;
     options.normal_weight = 0.01, options.slack = 1e-6;
-    CHECK(fit_quadric(samples_of(place), options).type == type);
+    CHECK(fit_quadric(samples_of(shape.second), options).type == type);
   }
   // Noise far below the slack does not make a plane anything else.
   auto samples = samples_of(on_plane);

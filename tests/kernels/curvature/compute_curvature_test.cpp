@@ -147,7 +147,8 @@ TEST_CASE("rotating the surface rotates the fields") {
 
 TEST_CASE("one ridge along each fillet of a rounded cube, at 2, 4, 8 and 16 edges") {
   const std::array<std::array<Real, 2>, 4> shapes{{{16, 2}, {16, 4}, {48, 8}, {75, 16}}};
-  for (const auto& [half, radius] : shapes) {
+  for (const auto& shape : shapes) {
+    const Real half = shape[0], radius = shape[1];
     CAPTURE(radius);
     const RoundedCube cube{half, radius};
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.4, Vec3(1, 2, 3).normalized()).toRotationMatrix();

@@ -33,12 +33,14 @@ bool steps_share_faces(const MeshView& mesh, const LaidCurves& laid) {
       const Vec3 a = position(mesh, laid.net.point[row[i - 1]]), b = position(mesh, laid.net.point[row[i]]);
       bool shared = false;
       for (Index f = 0; f < mesh.face_count() && !shared; ++f) {
-        const auto [u, v, w] = mesh.face(f);
-        const Vec3 n = (mesh.point(v) - mesh.point(u)).cross(mesh.point(w) - mesh.point(u));
+        const std::array<Index, 3> corner = mesh.face(f);
+        const Vec3 o = mesh.point(corner[0]), n = (mesh.point(corner[1]) - o).cross(mesh.point(corner[2]) - o);
         const auto inside = [&](const Vec3& p) {
-          for (const auto& [s, t] : {std::pair(u, v), std::pair(v, w), std::pair(w, u)})
-            if ((mesh.point(t) - mesh.point(s)).cross(p - mesh.point(s)).dot(n) < -1e-9 * n.squaredNorm()) return false;
-          return std::abs((p - mesh.point(u)).dot(n)) < 1e-9 * n.norm();
+          for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 s = mesh.point(corner[k]), t = mesh.point(corner[(k + 1) % 3]);
+            if ((t - s).cross(p - s).dot(n) < -1e-9 * n.squaredNorm()) return false;
+          }
+          return std::abs((p - o).dot(n)) < 1e-9 * n.norm();
         };
         shared = inside(a) && inside(b);
       }

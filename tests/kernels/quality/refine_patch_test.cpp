@@ -67,7 +67,7 @@ TEST_CASE("refinement keeps border, area and disc, and makes even Delaunay trian
       edges += border || h.first < h.second ? 1 : 0;
       longest = std::max(longest, (r.point[h.first] - r.point[h.second]).norm());
       if (border) continue;
-      const auto angle = [&](Index apex) {
+      const auto angle = [&r, h = h](Index apex) {
         const Vec3 a = r.point[h.first] - r.point[apex], b = r.point[h.second] - r.point[apex];
         return std::atan2(a.cross(b).norm(), a.dot(b));
       };
