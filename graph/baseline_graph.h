@@ -1,5 +1,5 @@
 // The methods that layouts are compared with: segmentations of the surface that do not look at feature curves, brought
-// to patches and then to a layout by the same last stages as our own (section 15).
+// to patches and then to a layout by the same last stages as our own.
 #pragma once
 
 #include <functional>

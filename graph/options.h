@@ -29,7 +29,7 @@ namespace intarsia::graph {
 
 enum class Mode : std::uint8_t { robust, paper };
 
-// How the network's patches become the wanted number (section 10; lessons 7, 8 and 15).
+// How the network's patches become the wanted number.
 enum class SubdivideForm : std::uint8_t {
   faithful,  // the paper's: variational shape approximation inside each patch of the network
   compact,   // over-segmented by new seeds where the reconstruction is worst, merged by reconstruction error, borders
@@ -102,7 +102,7 @@ enum class StageGroup : std::uint8_t { features, curves, network, patches, layou
 LayoutOptions options_up_to(StageGroup group, LayoutOptions options);
 
 LayoutOptions robust_options();
-// The paper's letter where algorithms.md 18 brackets a value.
+// The paper's letter where a value of ours differs.
 LayoutOptions paper_options(std::uint64_t seed);
 
 }  // namespace intarsia::graph

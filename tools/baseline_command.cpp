@@ -10,9 +10,11 @@
 #include "graph/baseline_graph.h"
 #include "tools/commands.h"
 #include "tools/config_file.h"
+#include "tools/counted.h"
 #include "tools/exit_code.h"
 #include "tools/report.h"
 #include "tools/stage_command.h"
+#include "tools/usual_flags.h"
 #include "tools/view_flag.h"
 #include "tools/write_result.h"
 
@@ -76,9 +78,10 @@ int baseline(const BaselineFlags& flags, const CLI::App& app) {
   folder.commit();
   command.write_records(report);
   if (!flags.common.quiet) {
-    fmt::print("{}: {} patches, {} of them no discs, in {:.2f} s ({} threads)\n", graph::name_of(method),
-               report["counts"]["patches"].get<int>(), report["counts"]["not_discs"].get<int>(),
-               report["seconds"].get<double>(), report["threads"].get<int>());
+    fmt::print("{}: {}, {} of them no discs, in {:.2f} s ({})\n", graph::name_of(method),
+               counted(report["counts"]["patches"].get<int>(), "patch", "patches"),
+               report["counts"]["not_discs"].get<int>(), report["seconds"].get<double>(),
+               counted(report["threads"].get<int>(), "thread"));
     for (const auto& w : report["warnings"]) spdlog::warn("{}", w["message"].get<std::string>());
     fmt::print("written to {}: patches.ply layout.ply network.ply network.json report.json preview.png\n",
                (folder.target() / "").string());
@@ -103,7 +106,7 @@ void add_baseline_command(CLI::App& app, int& exit_code) {
   command->add_option("input", flags->input, "mesh: .ply .obj .stl .off")->required();
   command->add_option("-o,--output", flags->output, "folder for the results; exchanged as a whole")->required();
   command->add_option("-n,--patches", flags->patches, "number of patches")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_number(1, kNone - 1))
       ->capture_default_str();
   command->add_option("--parts", flags->parts, "exoskeleton: parts of the body, .seg (one label a line) or .ply");
   command->add_option("--property", flags->property, "face property of a .ply with parts")->capture_default_str();

@@ -13,6 +13,7 @@
 #include "tools/exit_code.h"
 #include "tools/forecast.h"
 #include "tools/interrupt.h"
+#include "tools/usual_flags.h"
 
 namespace intarsia::tools {
 namespace {
@@ -115,9 +116,8 @@ void add_batch_command(CLI::App& app, int& exit_code) {
   command->add_option("run-options", flags->run_options, "after --: options of intarsia run, for every mesh");
   command->add_option("-o,--output", flags->output, "folder with a folder for each mesh and the summary")->required();
   command->add_option("--jobs", flags->jobs, "most meshes side by side; 0 = as many as threads")
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("-t,--threads", flags->threads, "threads in all; 0 = all allowed processors")
-      ->check(CLI::NonNegativeNumber);
+      ->check(whole_number(0, kMostThreads));
+  add_threads_flag(*command, flags->threads, "threads in all");
   command
       ->add_option("--max-memory", flags->memory,
                    "of all meshes at a time: bytes, or with K M G (of 1024); default: 80 % of what is free")
@@ -125,7 +125,7 @@ void add_batch_command(CLI::App& app, int& exit_code) {
   command->add_option("--shard", flags->shard,
                       "i/n: every n-th mesh from the i-th; default: Slurm's array task, or all");
   command->add_flag("--resume", flags->resume, "leave out what is done: same file, same options");
-  command->add_flag("-q,--quiet", flags->quiet, "print nothing but errors");
+  add_quiet_flag(*command, flags->quiet);
   command->callback([flags, &exit_code] { exit_code = batch(*flags); });
 }
 

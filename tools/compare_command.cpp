@@ -14,6 +14,7 @@
 #include "tools/interrupt.h"
 #include "tools/read_layout.h"
 #include "tools/report.h"
+#include "tools/usual_flags.h"
 
 namespace intarsia::tools {
 namespace {
@@ -189,8 +190,7 @@ void add_compare_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_flag("--exact", flags->exact, "exit status 5 unless every triangle has the same label in both");
   command->add_flag("--json", flags->json, "print the report as JSON, with the best match of every patch");
-  command->add_option("-t,--threads", flags->threads, "threads; 0 = all allowed processors")
-      ->check(CLI::NonNegativeNumber);
+  add_threads_flag(*command, flags->threads);
   command->callback([flags, &exit_code] { exit_code = compare(*flags); });
 }
 

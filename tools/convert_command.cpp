@@ -10,6 +10,7 @@
 #include "tools/export/formats.h"
 #include "tools/interrupt.h"
 #include "tools/layout_handover.h"
+#include "tools/usual_flags.h"
 #include "tools/view/write_page.h"
 
 namespace intarsia::tools {
@@ -65,9 +66,8 @@ void add_convert_command(CLI::App& app, int& exit_code) {
   command->add_option("-o,--output", flags->output,
                       "folder for the files; default: the input, to which they are added");
   command->add_option("--write", flags->list, export_help())->delimiter(',')->required();
-  command->add_option("-t,--threads", flags->threads, "threads; 0 = all allowed processors")
-      ->check(CLI::NonNegativeNumber);
-  command->add_flag("-q,--quiet", flags->quiet, "print nothing but errors");
+  add_threads_flag(*command, flags->threads);
+  add_quiet_flag(*command, flags->quiet);
   command->callback([flags, &exit_code] { exit_code = convert(*flags); });
 }
 

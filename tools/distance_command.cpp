@@ -21,6 +21,7 @@
 #include "tools/picture/best_view.h"
 #include "tools/picture/png_file.h"
 #include "tools/report.h"
+#include "tools/usual_flags.h"
 
 namespace intarsia::tools {
 namespace {
@@ -237,9 +238,8 @@ void add_distance_command(CLI::App& app, int& exit_code) {
   command->add_option("--save-samples", flags->save_samples, "write all samples into the folder: ply or csv")
       ->check(CLI::IsMember({"ply", "csv"}));
   command->add_flag("--json", flags->json, "print the report as JSON");
-  command->add_option("-t,--threads", flags->threads, "threads; 0 = all allowed processors")
-      ->check(CLI::NonNegativeNumber);
-  command->add_flag("-q,--quiet", flags->quiet, "print nothing but errors");
+  add_threads_flag(*command, flags->threads);
+  add_quiet_flag(*command, flags->quiet);
   command->callback([flags, &exit_code] { exit_code = distance(*flags); });
 }
 

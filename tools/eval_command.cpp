@@ -11,6 +11,7 @@
 #include "tools/exit_code.h"
 #include "tools/interrupt.h"
 #include "tools/report.h"
+#include "tools/usual_flags.h"
 #include "tools/view_flag.h"
 #include "tools/write_evaluation.h"
 
@@ -74,6 +75,8 @@ void print_text(const graph::Evaluation& e, Real diagonal, double seconds) {
 
 int eval(EvalFlags& flags) {
   const bool is_folder = std::filesystem::is_directory(flags.input);
+  if (!std::filesystem::exists(flags.input))
+    throw Error(ErrorCode::bad_file, flags.input + ": there is no such file or folder");
   if (flags.output.empty() && !is_folder)
     throw Error(ErrorCode::bad_argument, "a labelled mesh needs a folder for the results: -o DIR");
   if (is_folder && (!flags.labels.empty() || flags.labelled.smooth))
@@ -133,9 +136,8 @@ void add_eval_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   add_view_flag(*command, flags->view);
   command->add_flag("--json", flags->json, "print eval.json instead of the table");
-  command->add_option("-t,--threads", flags->threads, "threads; 0 = all allowed processors")
-      ->check(CLI::NonNegativeNumber);
-  command->add_flag("-q,--quiet", flags->quiet, "print nothing but errors");
+  add_threads_flag(*command, flags->threads);
+  add_quiet_flag(*command, flags->quiet);
   command->callback([flags, &exit_code] { exit_code = eval(*flags); });
 }
 

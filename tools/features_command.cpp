@@ -12,6 +12,7 @@
 #include "tools/features_picture.h"
 #include "tools/picture/png_file.h"
 #include "tools/stage_command.h"
+#include "tools/usual_flags.h"
 #include "tools/view_flag.h"
 #include "tools/write_result.h"
 
@@ -94,8 +95,11 @@ void add_features_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<FeaturesFlags>();
   CLI::App* command = app.add_subcommand("features", "per-vertex fields: surface variation, curvature, extremality");
   command->add_option("input", flags->input, "mesh: .ply .obj .stl .off")->required();
-  command->add_option("-o,--output", flags->output, "fields as a binary PLY file")->required();
-  command->add_option("--picture", flags->picture, "also draw the chosen rings into this PNG file");
+  command->add_option("-o,--output", flags->output, "fields as a binary PLY file")
+      ->required()
+      ->check(file_ending(".ply"));
+  command->add_option("--picture", flags->picture, "also draw the chosen rings into this PNG file")
+      ->check(file_ending(".png"));
   command->add_option("--vertices", flags->vertices, "vertices to mark there, with A, B, C ...")->delimiter(',');
   add_view_flag(*command, flags->view);
   add_common_flags(*command, flags->common);

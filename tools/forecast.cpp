@@ -1,7 +1,6 @@
 #include "tools/forecast.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -10,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.h"
+#include "engine/io/extension.h"
 namespace intarsia::tools {
 namespace {
 
@@ -80,8 +80,7 @@ std::uint64_t vertices_in(const std::filesystem::path& file) {
   const std::uint64_t bytes = std::filesystem::file_size(file, failed);
   if (failed) return 0;
   const std::string head = head_of(file);
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = lower_extension(file);
   // A header may promise more than there is: no vertex takes less than two bytes of text or twelve of numbers.
   const std::uint64_t most = bytes / 2;
   if (head.compare(0, 3, "ply") == 0) return std::min(vertices_of_ply(head), most);

@@ -12,9 +12,11 @@
 #include "kernels/surface/diagnose_soup.h"
 #include "kernels/surface/self_intersections.h"
 #include "tools/commands.h"
+#include "tools/counted.h"
 #include "tools/exit_code.h"
 #include "tools/forecast.h"
 #include "tools/interrupt.h"
+#include "tools/usual_flags.h"
 
 namespace intarsia::tools {
 namespace {
@@ -109,10 +111,10 @@ json json_of(const std::string& input, const SoupDiagnosis& d, const Forecast& f
 
 void print(const std::string& input, const SoupDiagnosis& d, const Forecast& forecast, const Prospect& p) {
   fmt::print("{}\n", input);
-  fmt::print("  {} vertices, {} triangles, {} component{}", d.vertices, d.triangles, d.components,
-             d.components == 1 ? "" : "s");
+  fmt::print("  {}, {}, {}", counted(d.vertices, "vertex", "vertices"), counted(d.triangles, "triangle"),
+             counted(d.components, "component"));
   if (d.border_loops > 0)
-    fmt::print(", {} boundary loop{} of {} edges", d.border_loops, d.border_loops == 1 ? "" : "s", d.border_edges);
+    fmt::print(", {} of {} edges", counted(d.border_loops, "boundary loop"), d.border_edges);
   else
     fmt::print(", closed");
   fmt::print("{}\n", d.genus >= 0 ? fmt::format(", genus {}", d.genus) : "");
@@ -178,8 +180,7 @@ void add_info_command(CLI::App& app, int& exit_code) {
   command->add_flag("--self-intersections", flags->intersections,
                     "also look for triangles that cross, overlap or touch others: exact, takes longer");
   command->add_flag("--json", flags->json, "print JSON");
-  command->add_option("-t,--threads", flags->threads, "threads; 0 = all allowed processors")
-      ->check(CLI::NonNegativeNumber);
+  add_threads_flag(*command, flags->threads);
   command->callback([flags, &exit_code] { exit_code = info(*flags); });
 }
 

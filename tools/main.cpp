@@ -2,6 +2,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <system_error>
 
@@ -27,10 +28,28 @@ int fail(const intarsia::Error& e) {
   return intarsia::tools::exit_code_of(e.code());
 }
 
+// No command, or none of this name.
+void explain_commands(const CLI::App& app) {
+  const std::vector<std::string> words = app.remaining(true);
+  if (words.empty()) {
+    std::fputs(app.help().c_str(), stderr);
+    return;
+  }
+  const std::string& word = words.front();
+  std::error_code unknown;
+  if (std::filesystem::is_regular_file(word, unknown))
+    std::fprintf(stderr, "'%s' is no command; for a layout of that mesh: intarsia run %s -o FOLDER\n", word.c_str(),
+                 word.c_str());
+  else
+    std::fprintf(stderr, "'%s' is no command; intarsia --help lists them\n", word.c_str());
+}
+
 // What CLI11 says, and what may have been meant.
 int usage_error(const CLI::App& app, const CLI::ParseError& e) {
-  const int status = app.exit(e);
-  if (status == 0) return intarsia::tools::kExitDone;
+  if (e.get_exit_code() != 0 && app.get_subcommands().empty())
+    explain_commands(app);
+  else if (app.exit(e) == 0)
+    return intarsia::tools::kExitDone;
   const std::string hint = intarsia::tools::hint_for_unknown(app);
   if (!hint.empty()) std::fprintf(stderr, "%s\n", hint.c_str());
   return intarsia::tools::kExitUsage;

@@ -6,6 +6,7 @@
 #include "tools/interrupt.h"
 #include "tools/make/shape.h"
 #include "tools/make/truth.h"
+#include "tools/usual_flags.h"
 
 namespace intarsia::tools {
 namespace {
@@ -64,7 +65,7 @@ void add_make_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("make", "scan-like sample mesh of a known shape");
   command->footer(shape_list());
   command->add_option("shape", flags->options.shape, "name of the shape, see below")->required();
-  command->add_option("-o,--output", flags->output, "PLY file to write")->required();
+  command->add_option("-o,--output", flags->output, "PLY file to write")->required()->check(file_ending(".ply"));
   command->add_option("--triangles", flags->options.triangles, "wanted number of triangles")->capture_default_str();
   command->add_option("--irregularity", flags->options.irregularity, "0 even .. 1 very uneven triangles")
       ->capture_default_str();
@@ -74,9 +75,8 @@ void add_make_command(CLI::App& app, int& exit_code) {
   command->add_flag("--double", flags->options.double_coordinates, "double coordinates");
   command->add_option("--set", flags->parameters, "parameter of the shape: name=value");
   command->add_option("--truth", flags->truth, "write the true feature curves to this OBJ file");
-  command->add_option("-t,--threads", flags->threads, "threads; 0 = all allowed processors")
-      ->check(CLI::NonNegativeNumber);
-  command->add_flag("-q,--quiet", flags->quiet, "print nothing but errors");
+  add_threads_flag(*command, flags->threads);
+  add_quiet_flag(*command, flags->quiet);
   command->callback([flags, &exit_code] { exit_code = make(*flags); });
 }
 

@@ -1,15 +1,42 @@
 #include "tools/option_flags.h"
 
+#include <charconv>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "graph/layout_graph.h"
 #include "graph/visit_options.h"
 #include "tools/config_file.h"
+#include "tools/usual_flags.h"
 
 namespace intarsia::tools {
+namespace {
+
+CLI::Validator yes_or_no() {
+  const auto check = [](const std::string& text) -> std::string {
+    for (const char* word : {"0", "1", "true", "false", "on", "off", "yes", "no"})
+      if (text == word) return {};
+    return "must be true or false, 1 or 0, not '" + text + "'";
+  };
+  return {check, ""};
+}
+
+CLI::Validator number(double least, double most) {
+  const auto check = [least, most](const std::string& text) -> std::string {
+    double value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error == std::errc() && stop == end && value >= least && value <= most) return {};
+    return fmt::format("must be a number from {:g} to {:g}, not '{}'", least, most, text);
+  };
+  return {check, ""};
+}
+
+}  // namespace
 
 void add_common_flags(CLI::App& app, CommonFlags& flags) {
-  app.add_option("-t,--threads", flags.threads, "threads; 0 = all allowed processors")->check(CLI::NonNegativeNumber);
+  add_threads_flag(app, flags.threads);
   app.add_option("--mode", flags.mode, "robust, or paper (the letter of Cao, Yan, Wonka 2014)")
       ->check(CLI::IsMember({"robust", "paper"}))
       ->capture_default_str();
@@ -20,7 +47,9 @@ void add_common_flags(CLI::App& app, CommonFlags& flags) {
   app.add_option("--order", flags.order, "fixed: same bits on any number of threads; relaxed: to show what that costs")
       ->check(CLI::IsMember({"fixed", "relaxed"}))
       ->capture_default_str();
-  app.add_option("--seed", flags.seed, "of the random subdivision seeds in paper mode")->capture_default_str();
+  app.add_option("--seed", flags.seed, "of the random subdivision seeds in paper mode")
+      ->check(whole_number(0))
+      ->capture_default_str();
   app.add_option("--max-memory", flags.max_memory,
                  "refuse at once what would need more memory, by forecast: bytes, or with K M G (of 1024)")
       ->transform(CLI::AsSizeValue(false));
@@ -33,7 +62,7 @@ void add_common_flags(CLI::App& app, CommonFlags& flags) {
                  "a terminal, else lines")
       ->check(CLI::IsMember({"auto", "bar", "lines", "json", "none"}))
       ->capture_default_str();
-  app.add_flag("-q,--quiet", flags.quiet, "print nothing but errors");
+  add_quiet_flag(app, flags.quiet);
   add_config_flags(app, flags);
 }
 
@@ -56,16 +85,13 @@ CLI::Option* add_length_flag(CLI::App& app, const std::string& name, Length& len
 void OptionFlags::add_to(CLI::App& app) {
   graph::visit_options(given_values_, [&](const char* name, auto& value, const char* help, auto least, auto most) {
     CLI::Option* flag = app.add_option(std::string("--") + name, value, help)->capture_default_str();
-    if constexpr (!std::is_same_v<std::remove_reference_t<decltype(value)>, bool>) {
-      flag->check([least, most](const std::string& text) -> std::string {
-        try {
-          const double v = std::stod(text);
-          if (v >= static_cast<double>(least) && v <= static_cast<double>(most)) return {};
-        } catch (const std::exception&) {
-        }
-        return "must be a number in " + std::to_string(least) + " .. " + std::to_string(most);
-      });
-    }
+    using Value = std::remove_reference_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, bool>)
+      flag->check(yes_or_no());
+    else if constexpr (std::is_integral_v<Value>)
+      flag->check(whole_number(static_cast<std::int64_t>(least), static_cast<std::int64_t>(most)));
+    else
+      flag->check(number(least, most));
     flag->group("Method");
     flags_.emplace_back(name, flag);
   });

@@ -2,16 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "tools/counted.h"
+
 namespace intarsia::tools {
 namespace {
 
 void append(Lines& lines, const Lines& more) {
   for (std::size_t i = 0; i < more.count(); ++i)
     lines.add(std::span(more.point).subspan(more.offset[i], more.offset[i + 1] - more.offset[i]), more.style[i]);
-}
-
-std::string counted(std::size_t n, const char* one, const char* many) {
-  return fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
 Panel panel(std::string title, std::string caption, const Shape& shape, Lines lines = {}) {

@@ -12,6 +12,7 @@
 #include "tools/picture/png_file.h"
 #include "tools/picture/shade.h"
 #include "tools/read_deviation.h"
+#include "tools/usual_flags.h"
 #include "tools/view/read_page.h"
 #include "tools/view_flag.h"
 
@@ -156,7 +157,7 @@ void add_render_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<RenderFlags>();
   CLI::App* command = app.add_subcommand("render", "draw a result as a picture, without a display");
   command->add_option("input", flags->input, "folder written by intarsia run")->required();
-  command->add_option("-o,--output", flags->output, "picture: .png")->required();
+  command->add_option("-o,--output", flags->output, "picture: .png")->required()->check(file_ending(".png"));
   command->add_option("--size", flags->size, "pixels, WIDTHxHEIGHT")->capture_default_str();
   command
       ->add_option("--stage", flags->stage,
@@ -181,9 +182,8 @@ void add_render_command(CLI::App& app, int& exit_code) {
   command->add_option("--samples", flags->samples, "per pixel and side")
       ->check(CLI::Range(1, 8))
       ->capture_default_str();
-  command->add_option("-t,--threads", flags->threads, "threads; 0 = all allowed processors")
-      ->check(CLI::NonNegativeNumber);
-  command->add_flag("-q,--quiet", flags->quiet, "print nothing but errors");
+  add_threads_flag(*command, flags->threads);
+  add_quiet_flag(*command, flags->quiet);
   command->callback([flags, &exit_code] {
     if (flags->camera.size() != 0 && flags->camera.size() != 3 && flags->camera.size() != 6)
       throw Error(ErrorCode::bad_argument, "--camera takes three numbers or six");

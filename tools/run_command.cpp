@@ -10,12 +10,14 @@
 #include "graph/layout_graph.h"
 #include "tools/commands.h"
 #include "tools/config_file.h"
+#include "tools/counted.h"
 #include "tools/exit_code.h"
 #include "tools/forecast.h"
 #include "tools/guide_flags.h"
 #include "tools/interrupt.h"
 #include "tools/report.h"
 #include "tools/stage_command.h"
+#include "tools/usual_flags.h"
 #include "tools/view/write_page.h"
 #include "tools/view_flag.h"
 #include "tools/write_flag.h"
@@ -45,9 +47,10 @@ void add_goal(nlohmann::json& report, const graph::LayoutOptions& options, const
 }
 
 void print_summary(const nlohmann::json& report, const std::filesystem::path& folder, const Exports& exports) {
-  fmt::print("{} patches, {} arcs, {} nodes in {:.2f} s ({} threads)\n", report["counts"]["patches"].get<int>(),
-             report["counts"]["arcs"].get<int>(), report["counts"]["nodes"].get<int>(), report["seconds"].get<double>(),
-             report["threads"].get<int>());
+  const nlohmann::json& counts = report["counts"];
+  fmt::print("{}, {}, {} in {:.2f} s ({})\n", counted(counts["patches"].get<int>(), "patch", "patches"),
+             counted(counts["arcs"].get<int>(), "arc"), counted(counts["nodes"].get<int>(), "node"),
+             report["seconds"].get<double>(), counted(report["threads"].get<int>(), "thread"));
   for (const auto& w : report["warnings"]) spdlog::warn("{}", w["message"].get<std::string>());
   std::string names;
   for (const std::string& name : result_names())
@@ -125,9 +128,10 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("input", flags->input, "mesh: .ply .obj .stl .off")->required();
   command->add_option("-o,--output", flags->output, "folder for the results; exchanged as a whole")->required();
   command->add_option("-n,--patches", flags->patches, "wanted number of patches; 0 = automatic")
-      ->check(CLI::NonNegativeNumber);
+      ->check(whole_number(0, kNone - 1));
   add_length_flag(*command, "--tolerance", flags->tolerance,
                   "instead of a number: as few patches as rebuild the surface from their borders to this (RMS)")
+      ->check([](const std::string& text) { return parse_length(text).value > 0 ? "" : "must be above 0"; })
       ->excludes("--patches");
   add_guide_flags(*command, flags->guides);
   add_picture_flags(*command, flags->picture);

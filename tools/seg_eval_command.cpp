@@ -18,6 +18,7 @@
 #include "tools/exit_code.h"
 #include "tools/interrupt.h"
 #include "tools/report.h"
+#include "tools/usual_flags.h"
 
 namespace intarsia::tools {
 namespace {
@@ -261,8 +262,7 @@ void add_seg_eval_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(0.0, 180.0))
       ->capture_default_str();
   command->add_flag("--json", flags->json, "print the report as JSON");
-  command->add_option("-t,--threads", flags->threads, "threads; 0 = all allowed processors")
-      ->check(CLI::NonNegativeNumber);
+  add_threads_flag(*command, flags->threads);
   command->callback([flags, &exit_code] { exit_code = seg_eval(*flags); });
 }
 

@@ -19,6 +19,7 @@
 #include "tools/step/fit_layout.h"
 #include "tools/step/measure_model.h"
 #include "tools/step/triangulate_model.h"
+#include "tools/usual_flags.h"
 
 namespace intarsia::tools {
 namespace {
@@ -340,9 +341,8 @@ void add_step_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--triangles", flags->triangles, "also write the triangulated faces as this PLY file");
   command->add_flag("--json", flags->json, "print the report instead of the summary");
-  command->add_option("-t,--threads", flags->threads, "threads; 0 = all allowed processors")
-      ->check(CLI::NonNegativeNumber);
-  command->add_flag("-q,--quiet", flags->quiet, "print nothing but errors");
+  add_threads_flag(*command, flags->threads);
+  add_quiet_flag(*command, flags->quiet);
   command->callback([flags, &exit_code] { exit_code = step(*flags); });
 }
 

@@ -20,6 +20,7 @@
 #include "tools/interrupt.h"
 #include "tools/picture/png_file.h"
 #include "tools/stage_command.h"
+#include "tools/usual_flags.h"
 #include "tools/view_flag.h"
 
 namespace intarsia::tools {
@@ -195,7 +196,7 @@ void add_table1_command(CLI::App& app, int& exit_code) {
   command->add_option("meshes", flags->meshes, "meshes: .ply .obj .stl .off")->required();
   command->add_option("-o,--output", flags->output, "folder for table1.md, .csv, .json, .png")->required();
   command->add_option("-n,--patches", flags->patches, "patches of every method")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_number(1, kNone - 1))
       ->capture_default_str();
   command->add_option("--count", flags->counts, "MESH=N: another number of patches for one mesh");
   command->add_option("--reference", flags->references,

@@ -19,7 +19,10 @@ namespace fs = std::filesystem;
 
 fs::path page_of(const fs::path& input) {
   std::error_code error;
-  if (fs::is_regular_file(input, error)) return fs::canonical(input);
+  if (fs::is_regular_file(input, error)) {
+    if (input.extension() == ".html") return fs::canonical(input);
+    throw Error(ErrorCode::bad_file, input.string() + ": is no page; give the folder that intarsia run wrote");
+  }
   const fs::path page = input / "view.html";
   if (fs::is_regular_file(page, error)) return fs::canonical(page);
   if (!fs::is_directory(input, error)) throw Error(ErrorCode::bad_file, input.string() + ": there is no such folder");

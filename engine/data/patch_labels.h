@@ -22,7 +22,7 @@ struct PatchLabels {
 struct PatchTable {
   std::vector<Index> faces;  // number of faces
   std::vector<Real> area;
-  Vec3Array normal_sum;             // sum of area times unit normal; E(patch) = 2 (area - |normal_sum|) (section 10)
+  Vec3Array normal_sum;             // sum of area times unit normal; E(patch) = 2 (area - |normal_sum|)
   std::vector<Real> perimeter;      // all border edges, those on the boundary of the surface included
   std::vector<std::int32_t> euler;  // V - E + F of the closed patch, each vertex counted once, filled holes as faces
   std::vector<Index> loops;         // border loops, filled holes not counted

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/io/extension.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/file_error.h"
 #include "engine/io/ply_header.h"
@@ -149,6 +150,9 @@ std::vector<int> read_face_labels(const Work& work, const std::filesystem::path&
 
 std::vector<int> read_face_labels(const Work& work, const std::filesystem::path& path, std::string_view bytes,
                                   const std::string& property) {
+  if (const std::string kind = lower_extension(path); kind == ".off" || kind == ".obj" || kind == ".stl")
+    throw_bad_file(path, "is a mesh of a kind that has no labels",
+                   "give them as .seg, one a line in the order of the faces, or as an integer face property of a .ply");
   std::vector<int> label = is_ply(bytes) ? read_ply_labels(work, path, bytes, property) : read_seg(work, path, bytes);
   if (label.empty()) throw_bad_file(path, "has no labels", kCureLabels);
   return label;

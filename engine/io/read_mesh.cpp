@@ -3,6 +3,7 @@
 #include <new>
 #include <string>
 
+#include "engine/io/extension.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/file_error.h"
 #include "engine/io/plain_text.h"
@@ -22,8 +23,7 @@ Format format_of(const std::filesystem::path& path, std::string_view file) {
   if (word == "ply") return Format::ply;
   if (word == "OFF" || word == "COFF" || word == "NOFF" || word == "CNOFF" || word.substr(0, 5) == "STOFF")
     return Format::off;
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const std::string extension = lower_extension(path);
   if (extension == ".ply") return Format::ply;
   if (extension == ".obj") return Format::obj;
   if (extension == ".stl") return Format::stl;

@@ -6,7 +6,8 @@ namespace intarsia {
 namespace {
 
 int effective_threads(int asked) {
-  if (asked < 0) throw Error(ErrorCode::bad_argument, "the number of threads must be 0 (all) or more");
+  if (asked < 0 || asked > kMostThreads)
+    throw Error(ErrorCode::bad_argument, "the number of threads must be 0 (all) to " + std::to_string(kMostThreads));
   return asked > 0 ? asked : tbb::info::default_concurrency();
 }
 

@@ -15,6 +15,9 @@
 
 namespace intarsia {
 
+// More asked for is an error: past what the system allows, a thread that cannot start ends the process.
+inline constexpr int kMostThreads = 1024;
+
 struct RunSettings {
   int threads = 0;  // 0 = every processor the process may use (affinity); results do not depend on it
   std::uint64_t seed = 0;
@@ -26,7 +29,7 @@ struct RunSettings {
 class RunContext {
  public:
   // cancel: a flag to watch instead of an own one, for example one that a signal handler sets; must outlive the
-  // context. Errors: bad_argument if threads < 0.
+  // context. Errors: bad_argument if threads < 0 or > kMostThreads.
   explicit RunContext(const RunSettings& settings = {}, std::atomic<bool>* cancel = nullptr);
 
   int threads() const { return threads_; }

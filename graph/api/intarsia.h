@@ -88,8 +88,9 @@ using ProgressFn = std::function<bool(std::string_view stage, double fraction)>;
 
 /// What all calls have in common.
 struct RunControl {
-  int threads = 0;      ///< that compute; 0 = every processor this process may use. Results do not depend on it
-  ProgressFn progress;  ///< may be empty; if not, one more thread calls it and sleeps in between
+  /// That compute, 1024 at most; 0 = every processor this process may use. Results do not depend on it.
+  int threads = 0;
+  ProgressFn progress;                        ///< may be empty; if not, one more thread calls it and sleeps in between
   const std::atomic<bool>* cancel = nullptr;  ///< if not null: the call ends soon after somebody has set it
 };
 

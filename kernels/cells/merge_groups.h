@@ -1,4 +1,4 @@
-// Merging patches by what their reconstruction would lose (lessons: over-segment, then merge by true error).
+// Merging patches by what their reconstruction would lose: over-segment, then merge by true error.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Refining the borders of patches: cells change sides while the reconstruction gets better (lessons 15).
+// Refining the borders of patches: cells change sides while the reconstruction gets better.
 #pragma once
 
 #include "kernels/cells/grouping.h"

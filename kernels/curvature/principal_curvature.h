@@ -1,5 +1,5 @@
 // Principal curvatures and directions of a height function over a plane, convex-positive: the plane's normal points
-// outward and a convex surface has h <= 0 (algorithms.md 0.2, 5.1, 5.3).
+// outward and a convex surface has h <= 0.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct PrincipalCurvature {
 // At the origin of the fit; its gradient may be anything finite.
 PrincipalCurvature principal_curvature(const CubicFit& fit);
 
-// Whether directions mean anything (algorithms.md 5.4): the curvatures differ by more than `anisotropy` times the
+// Whether directions mean anything: the curvatures differ by more than `anisotropy` times the
 // larger, and the surface turns by more than `flat_turn` radians over the fit radius.
 bool directions_defined(const PrincipalCurvature& k, Real radius, Real anisotropy, Real flat_turn);
 

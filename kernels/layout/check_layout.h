@@ -1,4 +1,4 @@
-// The promises that every layout keeps (section 17.1), each as a check of its own with a count and an example.
+// The promises that every layout keeps, each as a check of its own with a count and an example.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Smooths the arcs of a layout by sliding their points on the original surface (Eq. 8 with a length term, section 11).
+// Smooths the arcs of a layout by sliding their points on the original surface (Eq. 8 with a length term).
 // The mesh itself does not change: cross_edges turns the result into curves that can be embedded again.
 #pragma once
 

@@ -1,4 +1,4 @@
-// From labelled faces to the graph of the layout: nodes, arcs between them, loops around every patch (section 9.4).
+// From labelled faces to the graph of the layout: nodes, arcs between them, loops around every patch.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Every patch a disc (section 17.1, V3): patches with several loops, handles or no border at all are divided.
+// Every patch a disc: patches with several loops, handles or no border at all are divided.
 #pragma once
 
 #include "kernels/patches/merge_patches.h"

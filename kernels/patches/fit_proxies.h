@@ -1,4 +1,4 @@
-// Variational shape approximation of one region: Lloyd iterations of growing and refitting (section 10; L2,1 metric of
+// Variational shape approximation of one region: Lloyd iterations of growing and refitting (L2,1 metric of
 // Cohen-Steiner, Alliez, Desbrun 2004).
 #pragma once
 

@@ -1,4 +1,4 @@
-// Patches are the pieces of the surface that the network encloses (section 9.3).
+// Patches are the pieces of the surface that the network encloses.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What each patch is: size, shape, and whether it is a disc (section 17.1).
+// What each patch is: size, shape, and whether it is a disc.
 #pragma once
 
 #include <span>

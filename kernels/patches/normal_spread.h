@@ -1,4 +1,4 @@
-// How far the normals of a region spread: the quantities behind the pi/2 rule (section 10, lessons 0.6 and 9).
+// How far the normals of a region spread: the quantities behind the pi/2 rule.
 #pragma once
 
 #include <span>

@@ -34,7 +34,7 @@ struct PatchNode {
   std::vector<Border> borders;  // ascending by other
   std::vector<Index> meetings;  // vertices (and short holes) where this and at least two more patches meet
 
-  // L2,1 energy about the best proxy: 2 (A - |sum A n|) (section 10).
+  // L2,1 energy about the best proxy: 2 (A - |sum A n|).
   Real energy() const { return 2 * std::max(Real{0}, area - normal_sum.norm()); }
   // Distance from being a disc in units of the Euler characteristic.
   int defect() const { return euler > 1 ? euler - 1 : 1 - euler; }

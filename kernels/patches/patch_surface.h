@@ -77,7 +77,7 @@ struct PatchSurface {
 // Requires: unit (or zero) parent normals, one per original face; mean_edge > 0. Keeps views of `refined`, of
 // `parent_normal` and of `locked`: per refined face 1 where patches must not be divided, equal over each patch that the
 // network encloses; empty: nowhere.
-// hole_length: boundary loops of the surface shorter than this count as filled (section 17.1), unless a loop is longer
+// hole_length: boundary loops of the surface shorter than this count as filled, unless a loop is longer
 // than the square root of the area of its component: that is the outer border of a small piece.
 PatchSurface make_patch_surface(const Work& work, const RefinedMesh& refined, Vec3View parent_normal, Real mean_edge,
                                 Real hole_length = 0.05, std::span<const std::uint8_t> locked = {});

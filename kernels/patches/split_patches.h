@@ -1,4 +1,5 @@
-// Dividing patches whose normals spread too far (the paper's pi/2 rule, section 10; trimmed: lessons 0.6).
+// Dividing patches whose normals spread too far (the paper's pi/2 rule; ours leaves out a share of the area at each
+// end).
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ struct SplitOptions {
   RelaxOptions relax;
 };
 
-// The bracketed values of section 18.
+// The paper's own values.
 SplitOptions paper_split(std::uint64_t seed);
 
 // Patches whose spread is too large become regions by variational shape approximation from two seeds, with one more

@@ -1,5 +1,5 @@
 // The arcs of a layout as polylines of even steps, sampled once and shared by the patches on both sides: what is
-// rebuilt from them is watertight (section 12.5).
+// rebuilt from them is watertight.
 #pragma once
 
 #include <span>

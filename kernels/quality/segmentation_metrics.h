@@ -1,4 +1,4 @@
-// How far two segmentations of one mesh agree (Chen, Golovinskiy, Funkhouser 2009; section 16). Everything is 0 for
+// How far two segmentations of one mesh agree (Chen, Golovinskiy, Funkhouser 2009). Everything is 0 for
 // equal segmentations.
 #pragma once
 

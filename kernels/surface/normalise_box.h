@@ -1,4 +1,4 @@
-// The frame every later length is measured in: bounding-box centre at 0, bounding-box diagonal 1 (algorithms.md 0.1).
+// The frame every later length is measured in: bounding-box centre at 0, bounding-box diagonal 1.
 #pragma once
 
 #include "engine/base/types.h"

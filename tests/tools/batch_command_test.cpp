@@ -71,6 +71,12 @@ TEST_CASE("a folder becomes items in order, each with a name of its own") {
   CHECK_THROWS(find_items(folder / "nothing"));
   std::ofstream(folder / "none.txt") << "# nothing\n";
   CHECK_THROWS(find_items(folder / "none.txt"));
+  // Neither is a mesh a list, nor are the files of an earlier result meshes of the folder.
+  CHECK_THROWS(find_items(folder / "scans/ring.ply"));
+  fs::create_directories(folder / "scans/ring-out");
+  for (const char* file : {"layout.ply", "patches.ply", "network.json"})
+    std::ofstream(folder / (std::string("scans/ring-out/") + file));
+  CHECK(find_items(folder / "scans").size() == 5);
 }
 
 TEST_CASE("shards: every item in exactly one; from the text or from Slurm") {

@@ -43,12 +43,24 @@ TEST_CASE("0: done, also for help and version") {
 TEST_CASE("2: wrong usage") {
   const Cube c("exit-2");
   CHECK(c.says({}).status == 2);
+  CHECK(c.says({}).err.find("Subcommands:") != std::string::npos);
   CHECK(c.says({"walk"}).status == 2);
+  CHECK(c.says({"walk"}).err.find("'walk' is no command") != std::string::npos);
+  CHECK(c.says({c.mesh()}).err.find("intarsia run") != std::string::npos);
   CHECK(c.run({"--patches", "-3"}) == 2);
   CHECK(c.run({"--patches", "9", "--tolerance", "1%"}) == 2);
   CHECK(c.run({"--tolerance", "thick"}) == 2);
   CHECK(c.run({"--progress", "dance"}) == 2);
   CHECK(c.run({"--write", "docx"}) == 2);
+  CHECK(c.run({"--tolerance", "0"}) == 2);
+  CHECK(c.run({"--threads", "99999"}) == 2);
+  CHECK(c.run({"--network.snap", "half"}) == 2);
+  CHECK(c.run({"--uneven.split", "maybe"}) == 2);
+  CHECK(c.says({"make", "cube", "-o", c.dir / "cube.stl", "-q"}).status == 2);
+  CHECK(c.says({"batch", c.mesh(), "-o", c.out()}).status == 2);
+  const ProgramResult r = c.says({"run", c.mesh(), "-o", c.out(), "--patches", "-3"});
+  CHECK(r.err.find("--patches: must be a whole number") != std::string::npos);
+  CHECK(r.err.find("'-3'") != std::string::npos);
   CHECK(!std::filesystem::exists(c.out()));
 }
 
@@ -61,6 +73,8 @@ TEST_CASE("3: input unreadable, whatever the input is for") {
   CHECK(c.run({"--pin", c.dir / "none.seg"}) == 3);
   std::ofstream(c.dir / "few.seg") << "0\n1\n";
   CHECK(c.run({"--pin", c.dir / "few.seg"}) == 3);
+  CHECK(c.says({"eval", c.dir / "none"}).status == 3);
+  CHECK(c.says({"view", c.mesh()}).status == 3);
 }
 
 TEST_CASE("4: input rejected") {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engine/base/error.h"
+#include "engine/io/extension.h"
 
 namespace intarsia::tools {
 namespace {
@@ -15,9 +16,14 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_mesh(const fs::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = lower_extension(file);
   return ending == ".ply" || ending == ".obj" || ending == ".stl" || ending == ".off";
+}
+
+// Written by a run: its files are meshes too, but nobody means them.
+bool is_result(const fs::path& folder) {
+  std::error_code failed;
+  return fs::exists(folder / "network.json", failed) && fs::exists(folder / "layout.ply", failed);
 }
 
 std::vector<fs::path> meshes_in(const fs::path& folder) {
@@ -28,7 +34,7 @@ std::vector<fs::path> meshes_in(const fs::path& folder) {
     const bool hidden = at->path().filename().string().starts_with('.');
     std::error_code unknown;
     if (at->is_directory(unknown)) {
-      if (hidden) at.disable_recursion_pending();
+      if (hidden || is_result(at->path())) at.disable_recursion_pending();
     } else if (!hidden && is_mesh(at->path())) {
       out.push_back(at->path());
     }
@@ -39,6 +45,8 @@ std::vector<fs::path> meshes_in(const fs::path& folder) {
 }
 
 std::vector<fs::path> meshes_of_list(const fs::path& list) {
+  if (is_mesh(list))
+    throw Error(ErrorCode::bad_argument, list.string() + ": is a mesh; give a folder or a list, or use intarsia run");
   std::ifstream in(list);
   if (!in) throw Error(ErrorCode::bad_file, list.string() + ": cannot be read; give a folder or a list of meshes");
   std::vector<fs::path> out;

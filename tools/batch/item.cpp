@@ -52,18 +52,21 @@ ItemRecord read_record(const std::filesystem::path& results, const std::string& 
   return r;
 }
 
+nlohmann::json record_json(const ItemRecord& r) {
+  return {{"exit", r.exit},
+          {"message", r.message},
+          {"triangles", r.triangles},
+          {"patches", r.patches},
+          {"seconds", r.seconds},
+          {"cpu_seconds", r.cpu_seconds},
+          {"peak_memory_bytes", r.peak_memory},
+          {"options", r.options},
+          {"hash", r.hash}};
+}
+
 void write_record(const std::filesystem::path& results, const std::string& name, const ItemRecord& r) {
-  const nlohmann::json j = {{"input_bytes", r.state.bytes},
-                            {"input_modified", r.state.modified},
-                            {"options", r.options},
-                            {"exit", r.exit},
-                            {"message", r.message},
-                            {"triangles", r.triangles},
-                            {"patches", r.patches},
-                            {"seconds", r.seconds},
-                            {"cpu_seconds", r.cpu_seconds},
-                            {"peak_memory_bytes", r.peak_memory},
-                            {"hash", r.hash}};
+  nlohmann::json j = record_json(r);
+  j["input_bytes"] = r.state.bytes, j["input_modified"] = r.state.modified;
   write_file_atomically(record_file(results, name),
                         j.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }

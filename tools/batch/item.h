@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 namespace intarsia::tools {
 
 struct BatchItem {
@@ -41,6 +43,9 @@ struct ItemRecord {
 ItemRecord read_record(const std::filesystem::path& results, const std::string& name);
 void write_record(const std::filesystem::path& results, const std::string& name, const ItemRecord& record);
 std::filesystem::path log_file(const std::filesystem::path& results, const std::string& name);
+
+// What became of it, as records and summaries tell it.
+nlohmann::json record_json(const ItemRecord& record);
 
 // Adds what the run's own report says.
 void add_report(const std::filesystem::path& folder, ItemRecord& record);

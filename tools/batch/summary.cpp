@@ -14,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Shards end at the same time: one of them writes the summary, the others wait.
 class Turn {
  public:
   explicit Turn(const fs::path& file) : file_(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
@@ -58,19 +59,11 @@ std::string csv(const std::vector<Row>& rows) {
 
 nlohmann::json json(const std::vector<Row>& rows, const SummaryCount& count) {
   nlohmann::json list = nlohmann::json::array();
-  for (const auto& [item, r] : rows)
-    list.push_back({{"name", item->name},
-                    {"input", item->input.string()},
-                    {"status", word_for(r)},
-                    {"exit", r.exit},
-                    {"message", r.message},
-                    {"triangles", r.triangles},
-                    {"patches", r.patches},
-                    {"seconds", r.seconds},
-                    {"cpu_seconds", r.cpu_seconds},
-                    {"peak_memory_bytes", r.peak_memory},
-                    {"options", r.options},
-                    {"hash", r.hash}});
+  for (const auto& [item, r] : rows) {
+    nlohmann::json mesh = record_json(r);
+    mesh["name"] = item->name, mesh["input"] = item->input.string(), mesh["status"] = word_for(r);
+    list.push_back(std::move(mesh));
+  }
   return {{"schema", "intarsia-batch"},
           {"schema_version", 1},
           {"counts",

@@ -110,7 +110,7 @@ TEST_CASE("the first hit of a ray is the nearest beyond the least distance") {
   for (Index i = 0; i < 300; ++i) {
     const Vec3 direction = random_point(random, i, 1).normalized();
     const Real near = tree.first_hit(Vec3::Zero(), direction, 0);
-    CHECK(near > 1 - 0.0046);  // the largest sagitta of the faces, section 14
+    CHECK(near > 1 - 0.0046);  // the largest sagitta of the faces
     CHECK(near <= 1 + 1e-12);
     const Real entry = tree.first_hit(-2 * direction, direction, 0);
     CHECK(entry < 1.0046);

@@ -1,5 +1,6 @@
 #include "kernels/patches/seed_by_error.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include <doctest/doctest.h>
@@ -56,6 +57,34 @@ TEST_CASE("seeds go where the error is: the flat patch stays whole") {
     if (s.centroid(f).x() > 0) continue;
     if (flat == kNone) flat = seeded.patch_of_face[f];
     CHECK(seeded.patch_of_face[f] == flat);
+  }
+}
+
+TEST_CASE("one patch becomes hundreds: all connected, all inside what they came from, the same on any threads") {
+  const TestRefinement t = sharp_refinement(cube(24), 1.0);
+  const PatchSurface s = surface_of(t);
+  const PatchLabels labels = flood_patches(Work(), s.mesh, t.refined.on_network);
+  const TestRefinement round = sharp_refinement(icosphere(4), 1.0);
+  const PatchSurface ball = surface_of(round);
+  const PatchLabels one = flood_patches(Work(), ball.mesh, round.refined.on_network);
+  REQUIRE(one.count == 1);
+  const auto run = [](const PatchSurface& surface, const PatchLabels& start, Index wanted, int threads) {
+    return run_with_threads(threads, [&] { return seed_by_error(Work(), surface, start, wanted, {}); });
+  };
+  const PatchLabels seeded = run(ball, one, 300, 1);
+  CHECK(seeded.count == 300);
+  CHECK(flood_equal(Work(), ball.mesh, seeded.patch_of_face).count == 300);
+  CHECK(run(ball, one, 300, 3) == seeded);
+  // The error of a cap of a sphere falls with its size: seeds spread, none is left large, none is a crumb.
+  std::vector<Real> area(300, 0);
+  for (Index f = 0; f < ball.mesh.face_count(); ++f) area[seeded.patch_of_face[f]] += ball.area[f];
+  CHECK(*std::max_element(area.begin(), area.end()) < 5 * ball.total_area / 300);
+  const PatchLabels flat = run(s, labels, 100, 2);
+  std::vector<Index> side(flat.count, kNone);
+  for (Index f = 0; f < s.mesh.face_count(); ++f) {
+    Index& of = side[flat.patch_of_face[f]];
+    if (of == kNone) of = labels.patch_of_face[f];
+    CHECK(of == labels.patch_of_face[f]);
   }
 }
 

@@ -64,7 +64,7 @@ TEST_CASE("equal segmentations differ in nothing, under any names") {
   for (const Real v : {m.missing_rate, m.false_alarm, m.hamming, m.rand_error, m.gce, m.lce}) CHECK(v == 0);
 }
 
-TEST_CASE("one of two halves split again: the case of section 16") {
+TEST_CASE("one of two halves split again") {
   const std::vector<Index> candidate{0, 0, 1, 1, 2, 2, 2, 2}, reference{0, 0, 0, 0, 1, 1, 1, 1};
   const LabelMetrics m = compared(candidate, 3, reference, 2);
   CHECK(m.rand_error == Approx(0.142857).epsilon(1e-5));

@@ -120,7 +120,7 @@ TEST_CASE("a fine sphere against a cube: corners are farthest one way, poles the
 
 TEST_CASE("an icosphere of 1280 faces against a much finer one: the largest sagitta of its faces") {
   const SurfaceDistance d = between(test::icosphere(3), test::icosphere(6), {.samples = 60'000});
-  CHECK(d.forward.max == Approx(0.004528).epsilon(0.02));  // to the sphere itself, section 14; 1e-4 less here
+  CHECK(d.forward.max == Approx(0.004528).epsilon(0.02));  // to the sphere itself; 1e-4 less here
   CHECK(d.forward.bound >= d.forward.max);
 }
 
