@@ -11,6 +11,7 @@ namespace {
 constexpr int kBorderSteps = 3, kBorderRings = 3;
 
 enum Start { gradual, farthest, merging_few, merging_many, starts };
+constexpr Start kQuickest = merging_few;
 
 // The best regions so far, and the ways to better ones that all starts share.
 struct Search {
@@ -162,7 +163,7 @@ VsaFit fit_planes(const Work& work, const FaceGraph& graph, const VsaOptions& op
   std::vector<Search> search(static_cast<std::size_t>(std::clamp(options.starts, 1, int{starts})),
                              Search(work, start, options));
   for_each(work, Cost::single, search.size(), [&](std::size_t i) {
-    Begin(search[i], pieces).run(static_cast<Start>(i));
+    Begin(search[i], pieces).run(search.size() == 1 ? kQuickest : static_cast<Start>(i));
     search[i].keep_if_better();
     search[i].iterate();
   });

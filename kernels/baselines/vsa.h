@@ -10,7 +10,7 @@ namespace intarsia::kernels {
 
 struct VsaOptions {
   Index patches = 40;
-  int starts = 4;                           // of the four below, the first so many
+  int starts = 4;                           // of the four below; 1: the quickest of them
   int iterations = 50;                      // Lloyd steps from each start
   int teleport_every = 5;                   // steps between attempts to teleport; 0 = never
   Real tolerance = 1e-4;                    // relative gain of a round of steps that still counts
@@ -26,9 +26,9 @@ struct VsaFit {
   std::vector<Real> history;  // of the start that won: energy after each step
 };
 
-// Best of four deterministic starts (regions halved until there are K; added a few at a time; seeds farthest in normal;
-// many regions merged down), then teleports that only pay once the regions around them have adapted. Ensures: every
-// region connected; count = min(patches, faces), but never below the number of components.
+// Best of four deterministic starts (regions added a few at a time; seeds farthest in normal; 4 K regions by halving,
+// merged down, which is the quickest; 12 K merged down), then teleports that only pay once the regions around them have
+// adapted. Ensures: every region connected; count = min(patches, faces), but never below the number of components.
 VsaFit fit_planes(const Work& work, const FaceGraph& graph, const VsaOptions& options);
 
 }  // namespace intarsia::kernels
