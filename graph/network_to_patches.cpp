@@ -104,7 +104,8 @@ class ErrorDriven {
       grouping.weigh(labels_.count);
       weights_ = grouping.options();
     }
-    cost_ = swap_cells(work_, options_.refine.swap, grouping).after;
+    swap_cells(work_, options_.refine.swap, grouping);
+    cost_ = grouping.total_cost_at(work_, options_.refine.judge_points);
     labels_ = compact_labels(work_, grouping.spread(even.cells.patch_of_face), grouping.alive());
   }
   // Patches where little is gained against patches where much is lost: some more seeds, merged back, refined.
@@ -127,7 +128,7 @@ class ErrorDriven {
   PatchLabels labels_;
   std::string reason_;
   GroupOptions weights_;  // as the first refinement found them
-  Real cost_ = 0;         // after the last refinement
+  Real cost_ = 0;         // after the last refinement, finely sampled
 };
 
 }  // namespace

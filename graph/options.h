@@ -38,11 +38,12 @@ enum class SubdivideForm : std::uint8_t {
 };
 
 struct RefineOptions {
-  Real compact_perimeter = 1.15;  // share of sum of P^2 / (4 pi) in the cost, against the errors at the start
+  Real compact_perimeter = 1.25;  // share of sum of P^2 / (4 pi) in the cost, against the errors at the start
   Real quality_perimeter = 0.35;
   Real over_segment = 3;        // times the wanted number, then merged
-  int rounds = 4;               // of more seeds, merged back and refined again, while that helps
-  Real reconsider = 1.25;       // times the wanted number in such a round
+  int rounds = 8;               // of more seeds, merged back and refined again, while that helps
+  Real reconsider = 1.5;        // times the wanted number in such a round
+  Index judge_points = 100;     // points around a patch when such a round is judged
   kernels::GroupOptions group;  // its perimeter and discs are set from the above
   kernels::CellOptions cell;
   kernels::EvenCellOptions even;

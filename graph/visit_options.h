@@ -64,6 +64,8 @@ void visit_options(Options& o, V&& v) {
   v("refine.over-segment", o.refine.over_segment, "patches before merging, times --patches", 1.0, 10.0);
   v("refine.rounds", o.refine.rounds, "more seeds, merged back and refined, so many times while it helps", 0, 100);
   v("refine.reconsider", o.refine.reconsider, "times --patches in such a round", 1.0, 10.0);
+  v("refine.judge-points", o.refine.judge_points, "points around a patch when such a round is judged", Index{12},
+    Index{400});
   v("refine.cells", o.refine.even.per_patch, "cells of an average patch that may change sides", 2, 200);
   v("refine.sweeps", o.refine.swap.sweeps, "moves per cell at most; 0 = borders are not refined", 0, 100);
   v("smooth.guard", o.guard_smoothing, "keep borders whose smoothing spoils the reconstruction", 0, 1);

@@ -76,6 +76,27 @@ Real Grouping::total_cost() const {
   return sum;
 }
 
+Real Grouping::total_cost_at(const Work& work, Index loop_points) const {
+  GroupOptions finer = options_;
+  finer.outline.loop_points = loop_points, finer.outline.second_points = 0;
+  std::vector<Real> each(size(), 0);
+  auto pool = make_scratch_pool([] { return GroupScratch(); });
+  for_each_block(work, Cost::single, each.size(), [&](std::size_t begin, std::size_t end, std::size_t) {
+    auto scratch = pool.borrow();
+    for (std::size_t g = begin; g < end; ++g) {
+      if (cells_[g].empty()) continue;
+      GroupShape shape = shape_[g];
+      outline_of_group(*complex_, cells_[g], group_, {}, *scratch);
+      least_group_error(*complex_, cells_[g], finer, *scratch);
+      shape.error = std::max(shape.error, group_error(finer, *scratch));
+      each[g] = cost_of(shape, options_);
+    }
+  });
+  Real sum = 0;
+  for (const Real cost : each) sum += cost;
+  return sum;
+}
+
 Real Grouping::total_error() const {
   Real sum = 0;
   for (Index g = 0; g < size(); ++g)

@@ -32,6 +32,9 @@ class Grouping {
   // is allowed for: errors fall with the square of the number.
   void weigh(Index wanted);
   Real total_cost() const;
+  // The same where every error is the worse of what it is and what it would be with so many points around a patch: some
+  // borders look good only by where their samples happen to fall.
+  Real total_cost_at(const Work& work, Index loop_points) const;
   Real total_error() const;
 
   // What a set of cells would be. Safe from several threads with a scratch each.

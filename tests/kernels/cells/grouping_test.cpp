@@ -149,3 +149,19 @@ TEST_CASE("the first merge is the cheapest of all unions that are discs") {
   CHECK(merge_groups(Work(), g.alive() - 1, g).empty());
   CHECK(g.group_of(cheapest.first) == g.group_of(cheapest.second));
 }
+
+TEST_CASE("a cost judged at more points is never lower, and the same where patches are rebuilt exactly") {
+  const CellMesh cube = quartered_cube(2);
+  Grouping six(Work(), cube.complex, sides_of_cells(cube), 6, {});
+  six.weigh(6);
+  CHECK(six.total_cost_at(Work(), 100) == doctest::Approx(six.total_cost()));
+  const CellMesh ball = cell_mesh(icosphere(4), [](const Vec3& p, const Vec3&) {
+    return (p.x() > 0.2 ? Index{1} : Index{0}) + (p.y() > 0 ? Index{2} : Index{0}) +
+           (p.z() > 0.1 ? Index{4} : Index{0});
+  });
+  Grouping eight(Work(), ball.complex, identity(ball.cells.count), ball.cells.count, {});
+  eight.weigh(8);
+  const Real judged = eight.total_cost_at(Work(), 100);
+  CHECK(judged >= eight.total_cost());
+  CHECK(judged < 1.2 * eight.total_cost());  // smooth caps: where samples fall matters little
+}
