@@ -60,6 +60,7 @@ void print_item(const BatchItem& item, const ItemRecord& r, std::size_t at, std:
 }
 
 int batch(const BatchFlags& flags) {
+  const std::atomic<bool>& stop = interrupt_flag();
   const std::vector<BatchItem> all = find_items(flags.input);
   const std::vector<BatchItem> mine = items_of_shard(all, shard_of(flags.shard));
   BatchPlan plan;
@@ -78,7 +79,6 @@ int batch(const BatchFlags& flags) {
   if (!flags.quiet && todo.size() < mine.size())
     fmt::print("{} of {} are done already\n", mine.size() - todo.size(), mine.size());
   std::size_t ended = 0;
-  const std::atomic<bool>& stop = interrupt_flag();
   const BatchCount count = run_items(
       todo, plan,
       [](const fs::path& input) {

@@ -168,8 +168,10 @@ TEST_CASE(
   CHECK(file_text(folder / "log").find("refused") != std::string::npos);
   CHECK(program({"batch", folder / "absent", "-o", folder / "out", "-q"}) == kExitUnreadable);
   CHECK(program({"batch", folder / "scans", "-o", folder / "out", "--shard", "3/2", "-q"}) == kExitUsage);
+  fs::remove_all(folder / "out");
   const pid_t running = start({"batch", folder / "scans", "-o", folder / "out", "--jobs", "1", "-q"}, folder / "log");
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  for (int i = 0; i < 6000 && !fs::exists(folder / "out/.batch"); ++i)  // a slow machine takes seconds to begin
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   kill(running, SIGINT);
   const int exit = finish_program(running);
   CHECK((exit == kExitInterrupted || exit == kExitBatch));  // it may have been done by then
