@@ -26,7 +26,7 @@ void for_each_field(const Body& body) {
       }
     }
     for (const MakeOptions& o : variants) {
-      const Shape shape = build_shape(o);
+      const MadeShape shape = build_shape(o);
       if (!shape.field) continue;
       std::string name = info.name;
       for (const auto& [key, value] : o.parameters) name += " " + key + "=" + std::to_string(value);
