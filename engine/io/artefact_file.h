@@ -25,6 +25,8 @@ class ArtefactWriter {
  public:
   // key: what the artefact was made from. note: anything to be known without reading the rest.
   ArtefactWriter(const Work& work, const std::filesystem::path& path, std::uint64_t key, const std::string& note);
+  ArtefactWriter(const Work&& work, const std::filesystem::path& path, std::uint64_t key,
+                 const std::string& note) = delete;  // it is asked again at every write
 
   void bytes(const void* from, std::size_t size);
   // The file gets its name. It is not forced to the disk: what a power cut leaves is noticed when it is read.
@@ -46,6 +48,7 @@ class ArtefactReader {
  public:
   // Reads and checks what stands before the values.
   ArtefactReader(const Work& work, const std::filesystem::path& path);
+  ArtefactReader(const Work&& work, const std::filesystem::path& path) = delete;
   ~ArtefactReader();
   ArtefactReader(const ArtefactReader&) = delete;
   ArtefactReader& operator=(const ArtefactReader&) = delete;

@@ -13,6 +13,8 @@ using namespace intarsia::test;
 
 namespace {
 
+const Work kWork;  // outlives every reader and writer
+
 struct Inner {
   std::uint8_t flag = 0;
   double value = 0;
@@ -68,13 +70,13 @@ void check_equal(const Sample& a, const Sample& b) {
 }
 
 void write(const std::filesystem::path& path, const Sample& s) {
-  ArtefactWriter to(Work{}, path, 77, "a note");
+  ArtefactWriter to(kWork, path, 77, "a note");
   write_value(to, s);
   to.commit();
 }
 
 Sample read(const std::filesystem::path& path) {
-  ArtefactReader from(Work{}, path);
+  ArtefactReader from(kWork, path);
   Sample s;
   read_value(from, s);
   from.finish();
@@ -89,7 +91,7 @@ TEST_CASE("what goes into a file comes out of it, small and large") {
     const Sample s = make_sample(large);
     write(folder / "a.stage", s);
     check_equal(read(folder / "a.stage"), s);
-    const ArtefactReader head(Work{}, folder / "a.stage");
+    const ArtefactReader head(kWork, folder / "a.stage");
     CHECK(head.key() == 77);
     CHECK(head.note() == "a note");
   }
@@ -103,7 +105,7 @@ TEST_CASE("every single changed byte, and every cut, is noticed") {
   const auto refused = [&](const std::string& bytes) {
     put_file(folder / "b.stage", bytes);
     const auto error = error_of([&] {
-      ArtefactReader head(Work{}, folder / "b.stage");
+      ArtefactReader head(kWork, folder / "b.stage");
       if (head.key() != 77) throw Error(ErrorCode::bad_file, "another key");
       read(folder / "b.stage");
     });
