@@ -63,12 +63,12 @@ class Extension {
     const Index tip = end.path.back();
     if (plan.step != kNone) {
       append(end, plan.step, plan.ideal);
-      if (plan.target == kNone) tip_end_[tip] = kNone, tip_end_[plan.step] = i;
+      if (plan.target == kNone) set_end_at(tip, kNone), set_end_at(plan.step, i);
     }
     if (plan.target != kNone) {
       append(end, plan.target, plan.ideal);
       close(i);
-      const Index other = tip_end_[plan.target];
+      const Index other = end_at(plan.target);
       if (other != kNone && other != i) close(other);
     }
     return true;
@@ -81,10 +81,14 @@ class Extension {
     Vec3 ideal = Vec3::Zero();
   };
 
+  // Several ends look here at once, and in the relaxed order write here too.
   static std::atomic_ref<std::uint8_t> flag(std::uint8_t& f) { return std::atomic_ref<std::uint8_t>(f); }
   bool is_taken(Index v) { return flag(taken_[v]).load(std::memory_order_relaxed) != 0; }
   bool is_closed(Index i) { return flag(ends_[i].closed).load(std::memory_order_relaxed) != 0; }
   void close(Index i) { flag(ends_[i].closed).store(1, std::memory_order_relaxed); }
+
+  Index end_at(Index v) { return std::atomic_ref<Index>(tip_end_[v]).load(std::memory_order_relaxed); }
+  void set_end_at(Index v, Index i) { std::atomic_ref<Index>(tip_end_[v]).store(i, std::memory_order_relaxed); }
 
   void append(GrowingEnd& end, Index q, const Vec3& ideal) {
     const Vec3 p = terrain_.point(end.path.back()), to = terrain_.point(q), n = terrain_.normal(q);

@@ -1,5 +1,6 @@
 #include "kernels/network/extend_curves.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 
@@ -202,6 +203,21 @@ TEST_CASE("two perpendicular seeds aimed at one point meet without crossing, in 
       CHECK(r.dead == 0);
       for (Index d : s.degrees(r)) CHECK(d != 1);
     }
+}
+
+TEST_CASE("a hundred seeds grow side by side in the relaxed order: only ends that meet share an edge") {
+  Scene s = triangular_grid(90);
+  for (Index i = 0; i < 100; ++i) {
+    const Real angle = 2.4 * i;  // the golden angle: no two alike
+    s.seed_towards({9.0 * (i % 10) + 5, 7.5 * (i / 10) + 5, 0}, Vec3(std::cos(angle), std::sin(angle), 0));
+  }
+  ExtensionResult r = s.extend(far_reaching(), Order::relaxed);
+  CHECK(r.ends == 200);
+  CHECK(r.met + r.bridged + r.dead == r.ends);
+  CHECK(r.met > 100);
+  for (const Index e : r.edge) CHECK(s.active[e] == 0);
+  std::sort(r.edge.begin(), r.edge.end());
+  for (std::size_t i = 2; i < r.edge.size(); ++i) CHECK(r.edge[i] != r.edge[i - 2]);
 }
 
 TEST_CASE("an end that runs into a corner takes the shortest way; what stays loose is pruned") {
