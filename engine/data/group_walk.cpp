@@ -86,7 +86,7 @@ void GroupWalker::look_around(Index begin, Index end) {
   size_ = size;
 }
 
-bool GroupWalker::walk(Index first, Index count, int rings, Index most) {
+bool GroupWalker::meet(Index first, Index count, int rings, Index most) {
   new_epoch();
   rings_ = rings;
   face_rings_ = 0;
@@ -104,14 +104,17 @@ bool GroupWalker::walk(Index first, Index count, int rings, Index most) {
     end_[static_cast<std::size_t>(k)] = size_;
     if (size_ > most) return false;
   }
+  return true;
+}
+
+void GroupWalker::reach() {
   if (!stop_.empty()) {  // a vertex that ends a walk may still be reached by ways found after it
     long_rows_.clear(), far_.clear();
     look_around<false>(0, size_);
-  } else if (rings > 0) {
-    look_around<false>(end_[static_cast<std::size_t>(rings - 1)], size_);
+  } else if (rings_ > 0) {
+    look_around<false>(end_[static_cast<std::size_t>(rings_ - 1)], size_);
   }
-  for (int k = 0; k <= rings; ++k) spread(static_cast<std::size_t>(k));
-  return true;
+  for (int k = 0; k <= rings_; ++k) spread(static_cast<std::size_t>(k));
 }
 
 // Who reaches what within k rings, from the same for k - 1. Above end_[k] there are zeros, also for "not met".

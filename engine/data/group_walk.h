@@ -29,7 +29,14 @@ class GroupWalker {
   // Walks `rings` rings of vertices first .. first + count - 1. Invalidates all spans handed out before.
   // Returns false, and then nothing may be asked, if more than `most` vertices are met: neighbourhoods so odd (poles of
   // CAD meshes) that walking together does not pay. Requires: 1 <= count <= kGroup, 0 <= rings <= kMaxRings.
-  bool walk(Index first, Index count, int rings, Index most = kNone);
+  bool walk(Index first, Index count, int rings, Index most = kNone) {
+    if (!meet(first, count, rings, most)) return false;
+    reach();
+    return true;
+  }
+  // The two halves of walk(), for those who may have seen enough after the first: vertices() only, then the rest.
+  bool meet(Index first, Index count, int rings, Index most = kNone);
+  void reach();
   // Finds the faces of N_1 .. N_rings of the walk just made. Requires: as many rings or one less were walked.
   void collect_faces(int rings);
 

@@ -32,7 +32,19 @@ void choose_rings(const Work& work, const MeshView& mesh, std::span<const Voting
                   ScaleFields& out, Codes& fit, Codes& flat) {
   constexpr std::size_t kGroup = GroupWalker::kGroup;
   static_assert(static_cast<std::size_t>(Cost::medium) % kGroup == 0, "blocks must not cut groups");
-  auto pool = make_scratch_pool([&] { return GroupVoting(mesh, faces, o.fold_guard); });
+  // A vertex is flat if not even half of its rings reach omega_-: the inner ones need to be looked at closest. Its
+  // values beyond that are asked for only if they are kept.
+  FlatTeams flat_teams;
+  std::vector<NormalCone> cones;
+  if (!o.keep_variation) {
+    cones = normal_cones(work, mesh, faces);
+    flat_teams = {cones, safe_chord(o.select.flat), safe_chord(o.select.bent), kRings / 2 + 1, kRings};
+  }
+  auto pool = make_scratch_pool([&] {
+    GroupVoting voting(mesh, faces, o.fold_guard);
+    voting.skip(flat_teams);
+    return voting;
+  });
   auto single = make_scratch_pool([&] { return Alone(mesh); });
   SelectOptions closest = o.select;
   closest.flat = 0;  // every ring counts as reached: the bent case

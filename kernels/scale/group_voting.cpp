@@ -32,6 +32,7 @@ struct Task {
   const Index* face;
   const std::array<Index, 3>* place;
   bool folds;
+  std::uint32_t flat;  // bit t: team t is not voted on
 };
 
 namespace baseline {
@@ -83,7 +84,19 @@ bool GroupVoting::normals_spread(std::span<const Index> faces) const {
 }
 
 bool GroupVoting::run(Index first, std::span<Variation> out) {
-  if (!walker_.walk(first, static_cast<Index>(out.size()), kRings - 1, kMostVertices)) return false;
+  const Index count = static_cast<Index>(out.size());
+  if (!walker_.meet(first, count, kRings - 1, kMostVertices)) return false;
+  std::uint32_t flat = 0;
+  if (!flat_.all(walker_, first, count)) {
+    walker_.reach();
+    flat = flat_.some(walker_, first, count);
+  } else {
+    flat = (1u << kTeams) - 1;
+  }
+  for (std::size_t b = 0; b < out.size(); ++b)
+    if (flat >> (b / kWide) & 1) out[b] = Variation{};
+  const std::uint32_t all = (1u << (out.size() + kWide - 1) / kWide) - 1;
+  if ((flat & all) == all) return true;
   walker_.collect_faces(kRings);
   const auto faces = walker_.faces(kRings);
   if (faces.size() > kMostFaces) return false;
@@ -102,7 +115,8 @@ bool GroupVoting::run(Index first, std::span<Variation> out) {
             {},
             faces.data(),
             walker_.face_places().data(),
-            fold_guard_ && normals_spread(faces)};
+            fold_guard_ && normals_spread(faces),
+            flat};
   for (int k = 0; k < kRings; ++k) task.within[k] = walker_.within(k).data();
   if (task.folds)
     for (std::size_t i = 0; i < faces.size(); ++i)

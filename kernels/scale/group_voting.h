@@ -8,6 +8,7 @@
 
 #include "engine/base/instruction_set.h"
 #include "engine/data/group_walk.h"
+#include "kernels/scale/normal_cones.h"
 #include "kernels/scale/voting_faces.h"
 #include "kernels/scale/voting_tensor.h"
 
@@ -50,6 +51,10 @@ class GroupVoting {
   GroupVoting(const MeshView& mesh, std::span<const VotingFace> faces, bool fold_guard,
               InstructionSet set = instruction_set());
 
+  // From now on, teams of eight that are flat by these cones get zeros instead of their variation, and are not voted
+  // on.
+  void skip(const FlatTeams& flat) { flat_ = flat; }
+
   // out[b] = variation of vertex first + b. Returns false, and fills nothing, where the neighbourhoods are too odd to
   // be walked together; that depends on the mesh only. Requires: 1 <= out.size() <= GroupWalker::kGroup.
   bool run(Index first, std::span<Variation> out);
@@ -65,6 +70,7 @@ class GroupVoting {
   InstructionSet set_;
   GroupWalker walker_;
   GroupVotingScratch scratch_;
+  FlatTeams flat_;
 };
 
 }  // namespace intarsia::kernels

@@ -106,3 +106,31 @@ TEST_CASE("a pole with thousands of neighbours is left to the walk of one vertex
   together(raw_mesh(s), true, instruction_set(), &refused);
   CHECK(refused == spokes + 1);
 }
+
+TEST_CASE("teams that are flat by their cones are flat by their votes") {
+  for (const Soup& soup : {ellipsoid(5, 1, 0.7, 0.4), torus(1, 0.3, 400, 160, Diagonals::alternating), cube(40),
+                           scaled(plane(30, 30), 0.7)}) {
+    const Mesh m = make_surface(soup).mesh;
+    const auto faces = voting_faces(Work{}, m);
+    const auto cones = normal_cones(Work{}, m, faces);
+    const Real flat = 0.1, bent = 0.25;
+    Index skipped = 0, wrong = 0;
+    GroupVoting voting(m, faces, true), hasty(m, faces, true);
+    hasty.skip({cones, safe_chord(flat), safe_chord(bent), 4, kRings});
+    Variations all(GroupWalker::kGroup), some(GroupWalker::kGroup);
+    for (Index first = 0; first < m.vertex_count(); first += GroupWalker::kGroup) {
+      const std::size_t count = std::min(GroupWalker::kGroup, m.vertex_count() - first);
+      REQUIRE(voting.run(first, std::span(all).first(count)));
+      REQUIRE(hasty.run(first, std::span(some).first(count)));
+      for (std::size_t b = 0; b < count; ++b) {
+        if (some[b].folded == all[b].folded && some[b].omega == all[b].omega) continue;
+        ++skipped;
+        for (std::size_t k = 0; k < kRings; ++k) wrong += some[b].folded[k] != 0;
+        for (std::size_t k = 0; k < 4; ++k) wrong += all[b].folded[k] >= flat;
+        wrong += all[b].folded[5] >= bent;
+      }
+    }
+    CHECK(wrong == 0);
+    CHECK(skipped > m.vertex_count() / 3);
+  }
+}
