@@ -148,13 +148,14 @@ struct Patches {
 // patches -> smoothing: where the borders of the patches are to go, and all that is still wanted of the network: its
 // refined mesh may be freed before the next one is made.
 struct Smoothing {
-  LayoutGraph graph;            // of the patches as they came, on the network's refined mesh
-  kernels::SmoothedArcs arcs;   // their smoothed places
-  kernels::LabelShares shares;  // the patches on the faces of the surface
-  std::vector<Real> error;      // reconstruction error per patch; empty if smoothing is not guarded
-  CurveNetwork interior;        // chosen features that separate nothing, on the surface's mesh
-  RefinedMesh refined;          // the network's, without its mesh
-  Network network;              // the network again; of its refined mesh only the edges that carry it, for pictures
+  LayoutGraph graph;             // of the patches as they came, on the network's refined mesh
+  kernels::SmoothedArcs arcs;    // their smoothed places
+  kernels::SmoothedArcs gentle;  // places nearer to where they were, for patches that the others spoil
+  kernels::LabelShares shares;   // the patches on the faces of the surface
+  std::vector<Real> error;       // reconstruction error per patch; empty, as `gentle`, if smoothing is not guarded
+  CurveNetwork interior;         // chosen features that separate nothing, on the surface's mesh
+  RefinedMesh refined;           // the network's, without its mesh
+  Network network;               // the network again; of its refined mesh only the edges that carry it, for pictures
 };
 
 // smoothing -> layout: smoothed borders, embedded in the surface again, as a graph; checked.

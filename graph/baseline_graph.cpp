@@ -92,12 +92,12 @@ BaselinePorts add_baseline_stages(Flow& flow, const Port<Soup>& soup, const Layo
                                    const Patches& q) { return patches_to_smoothing(w, s, l, n, q, options); };
   using SmoothingStage = Stage<Smoothing, Surface, Lines, Network, Patches>;
   const Port<Smoothing> smoothed =
-      add_stage(flow, SmoothingStage{"layout", 1, hash.value(), smoothing, "smoothing", 0.3}, p.features.surface, lines,
+      add_stage(flow, SmoothingStage{"layout", 2, hash.value(), smoothing, "smoothing", 0.3}, p.features.surface, lines,
                 p.network, p.patches);
   const auto layout = [options](const Work& w, const Surface& s, const Smoothing& a) {
     return smoothing_to_layout(w, s, a, options);
   };
-  p.layout = add_stage(flow, Stage<Layout, Surface, Smoothing>{"layout", 1, hash.value(), layout, {}, 0.7},
+  p.layout = add_stage(flow, Stage<Layout, Surface, Smoothing>{"layout", 2, hash.value(), layout, {}, 0.7},
                        p.features.surface, smoothed);
   return p;
 }

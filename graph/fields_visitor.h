@@ -133,9 +133,14 @@ void walk(const Patches& a, V& v) {
 }
 
 template <class V>
+void walk(const kernels::SmoothedArcs& a, V& v) {
+  walk(a.node, v), v.array(a.node_fixed), v.array(a.offset), walk(a.point, v), v.array(a.fixed);
+}
+
+template <class V>
 void walk(const Smoothing& a, V& v) {
-  walk(a.graph, v), walk(a.arcs.node, v), v.array(a.arcs.node_fixed), v.array(a.arcs.offset), walk(a.arcs.point, v);
-  v.array(a.arcs.fixed), v.array(a.shares.whole), v.array(a.shares.face), v.array(a.shares.offset);
+  walk(a.graph, v), walk(a.arcs, v), walk(a.gentle, v);
+  v.array(a.shares.whole), v.array(a.shares.face), v.array(a.shares.offset);
   v.array(a.shares.label), v.array(a.shares.share), v.array(a.error), walk(a.interior, v);
   walk(a.refined, v), walk(a.network, v);
 }

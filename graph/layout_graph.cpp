@@ -136,12 +136,12 @@ LayoutPorts add_layout_stages(Flow& flow, const Port<Soup>& soup, const LayoutOp
   };
   p.smoothing = add_stage(
       flow,
-      Stage<Smoothing, Surface, Lines, Network, Patches>{"layout", 1, for_layout.hash, smoothing, "smoothing", 0.3},
+      Stage<Smoothing, Surface, Lines, Network, Patches>{"layout", 2, for_layout.hash, smoothing, "smoothing", 0.3},
       surface, p.lines, p.network, p.patches);
   const auto layout = [options = for_layout.options](const Work& w, const Surface& s, const Smoothing& a) {
     return smoothing_to_layout(w, s, a, options);
   };
-  p.layout = add_stage(flow, Stage<Layout, Surface, Smoothing>{"layout", 1, for_layout.hash, layout, {}, 0.7}, surface,
+  p.layout = add_stage(flow, Stage<Layout, Surface, Smoothing>{"layout", 2, for_layout.hash, layout, {}, 0.7}, surface,
                        p.smoothing);
   return p;
 }

@@ -38,7 +38,7 @@ enum class SubdivideForm : std::uint8_t {
 };
 
 struct RefineOptions {
-  Real compact_perimeter = 1.25;  // share of sum of P^2 / (4 pi) in the cost, against the errors at the start
+  Real compact_perimeter = 1.1;  // share of sum of P^2 / (4 pi) in the cost, against the errors at the start
   Real quality_perimeter = 0.35;
   Real over_segment = 3;        // times the wanted number, then merged
   int rounds = 8;               // of more seeds, merged back and refined again, while that helps
@@ -90,7 +90,7 @@ struct LayoutOptions {
   kernels::SubdivideOptions subdivide;
   RefineOptions refine;
   kernels::SmoothOptions smooth;
-  bool guard_smoothing = true;  // borders stay as they were where smoothing them spoils the reconstruction
+  bool guard_smoothing = true;  // borders move half an edge at most where more would spoil the reconstruction
   kernels::CrossOptions cross;
   kernels::CheckOptions check;
 };

@@ -26,13 +26,14 @@ struct Embedded {
 };
 
 // Smoothed arcs that would break the layout go back to the chains they were traced from; if that does not help, all do.
-Embedded embed_smoothed(const Work& work, const Surface& surface, const Smoothing& old, std::vector<std::uint8_t> keep,
+Embedded embed_smoothed(const Work& work, const Surface& surface, const Smoothing& old, const SmoothedArcs& arcs,
                         const CrossOptions& options) {
   const LayoutGraph& graph = old.graph;
+  std::vector<std::uint8_t> keep(graph.arc_count(), 0);
   constexpr int kAttempts = 4;
   for (int attempt = 0;; ++attempt) {
     if (attempt == kAttempts) std::fill(keep.begin(), keep.end(), 1);
-    const CrossedArcs crossed = cross_edges(work, surface.mesh, old.refined, graph, old.arcs, keep, options);
+    const CrossedArcs crossed = cross_edges(work, surface.mesh, old.refined, graph, arcs, keep, options);
     Embedding e = embed_curves(work, surface.mesh, crossed.network);
     PatchLabels fresh = flood_patches(work, e.refined.mesh, e.refined.on_network);
     const LabelMatch match =
@@ -84,6 +85,23 @@ std::vector<Index> spoilt_patches(const std::vector<Real>& before, const std::ve
   for (Index p = 0; p < before.size(); ++p)
     if (after[p] > kWorse * before[p] && after[p] - before[p] > kWeight * mean + kNothing) spoilt.push_back(p);
   return spoilt;
+}
+
+// The zigzag of mesh edges is less than half an edge wide: that much may go where more would spoil a patch.
+SmoothOptions gentler(SmoothOptions o) {
+  o.free_reach = std::min(o.free_reach, Real{0.5});
+  return o;
+}
+
+// The chosen arcs, with the nodes at their ends, at the gentler places.
+SmoothedArcs with_gentle(const LayoutGraph& graph, SmoothedArcs arcs, const SmoothedArcs& gentle,
+                         std::span<const std::uint8_t> chosen) {
+  for (Index a = 0; a < graph.arc_count(); ++a) {
+    if (!chosen[a]) continue;
+    for (const Index node : {graph.start[a], graph.end[a]}) arcs.node[node] = gentle.node[node];
+    for (Index i = arcs.offset[a]; i < arcs.offset[a + 1]; ++i) arcs.point[i] = gentle.point[i];
+  }
+  return arcs;
 }
 
 // Chosen features that ended up inside patches, as chains of the refined edges they became.
@@ -149,8 +167,11 @@ Smoothing patches_to_smoothing(const Work& work, const Surface& surface, const L
   s.graph = trace_boundaries(work, refined, labels.patch_of_face, labels.count);
   s.arcs = smooth_boundaries(work, surface.mesh, refined, s.graph, labels.patch_of_face, lines.lines, options.smooth);
   s.shares = label_shares(work, surface.mesh, refined, labels.patch_of_face);
-  if (options.guard_smoothing && !work.is_late())
+  if (options.guard_smoothing && !work.is_late()) {
+    s.gentle = smooth_boundaries(work, surface.mesh, refined, s.graph, labels.patch_of_face, lines.lines,
+                                 gentler(options.smooth));
     s.error = patch_errors(work, surface, refined, labels, s.graph, options.check.hole_length);
+  }
   s.interior = interior_curves(work, network, labels);
   s.refined.origin = refined.origin;
   s.refined.on_network = refined.on_network, s.refined.edge_strength = refined.edge_strength;
@@ -160,12 +181,14 @@ Smoothing patches_to_smoothing(const Work& work, const Surface& surface, const L
 
 Layout smoothing_to_layout(const Work& work, const Surface& surface, const Smoothing& smoothing,
                            const LayoutOptions& options) {
-  std::vector<std::uint8_t> keep(smoothing.graph.arc_count(), 0);
+  const Index arc_count = smoothing.graph.arc_count();
+  std::vector<std::uint8_t> gentle(arc_count, 0);
+  SmoothedArcs arcs = smoothing.arcs;
   Layout layout;
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
     layout = {};
-    Embedded e = embed_smoothed(work, surface, smoothing, keep, options.cross);
+    Embedded e = embed_smoothed(work, surface, smoothing, arcs, options.cross);
     layout.refined = std::move(e.refined);
     layout.labels = std::move(e.labels);
     layout.kept_chains = e.kept_chains;
@@ -174,9 +197,12 @@ Layout smoothing_to_layout(const Work& work, const Surface& surface, const Smoot
     const std::vector<Index> spoilt = spoilt_patches(
         smoothing.error,
         patch_errors(work, surface, layout.refined, layout.labels, layout.graph, options.check.hole_length));
-    if (spoilt.empty()) break;
     const std::vector<std::uint8_t> more = arcs_of_patches(smoothing.graph, spoilt);
-    for (std::size_t a = 0; a < keep.size(); ++a) keep[a] |= more[a];
+    bool any = false;
+    for (Index a = 0; a < arc_count; ++a)
+      if (more[a] && !gentle[a]) gentle[a] = 1, any = true;
+    if (!any) break;
+    arcs = with_gentle(smoothing.graph, smoothing.arcs, smoothing.gentle, gentle);
   }
   const PatchSurface measured =
       make_patch_surface(work, layout.refined, surface.face_normal, surface.detail, options.check.hole_length);

@@ -68,7 +68,7 @@ void visit_options(Options& o, V&& v) {
     Index{400});
   v("refine.cells", o.refine.even.per_patch, "cells of an average patch that may change sides", 2, 200);
   v("refine.sweeps", o.refine.swap.sweeps, "moves per cell at most; 0 = borders are not refined", 0, 100);
-  v("smooth.guard", o.guard_smoothing, "keep borders whose smoothing spoils the reconstruction", 0, 1);
+  v("smooth.guard", o.guard_smoothing, "smooth borders less where it spoils the reconstruction", 0, 1);
   v("smooth.iterations", o.smooth.iterations, "steps of boundary smoothing", 0, 1000);
   v("smooth.length-weight", o.smooth.length_weight, "length against alignment in Eq. 8 (lambda)", 0.001, 1000.0);
   v("smooth.reach", o.smooth.free_reach, "how far a free border may move, mean edges", 0.0, 10.0);

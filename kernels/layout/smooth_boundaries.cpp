@@ -24,6 +24,8 @@ constexpr Real kLeastRoom = 0.2;
 
 enum class Direction : std::uint8_t { t_min, t_max };
 
+constexpr Real kCreaseCosine = 0.5;  // 60 degrees, as sharp_edges has it
+
 // All points in one array: nodes first, then the inner points of the arcs.
 struct Points {
   Index nodes = 0;
@@ -132,6 +134,13 @@ Points collect_points(const Work& work, const MeshView& original, const RefinedM
   return p;
 }
 
+// Is this edge a crease, whether or not the network knows it?
+bool turns(const MeshView& mesh, Index e) {
+  if (mesh.is_boundary_edge(e)) return false;
+  const Vec3 a = area_normal(mesh, mesh.edge_f0[e]), b = area_normal(mesh, mesh.edge_f1[e]);
+  return a.dot(b) < kCreaseCosine * a.norm() * b.norm();
+}
+
 bool is_feature(CurveKind k) { return k == CurveKind::ridge || k == CurveKind::valley; }
 bool is_fixed(CurveKind k) { return k == CurveKind::sharp || k == CurveKind::border || k == CurveKind::given; }
 
@@ -168,7 +177,9 @@ void set_reach(const Work& work, const MeshView& original, const RefinedMesh& re
     for (Index i = 0; i < n; ++i) {
       const CurveKind k = edge_kind(edges[i]), l = edge_kind(edges[i + 1]);
       const Real local = is_feature(k) || is_feature(l) ? std::min(share, options.feature_reach) : share;
-      p.reach[first + i] = is_fixed(k) || is_fixed(l) || limit < kLeastRoom * h[i] ? 0 : std::min(local * h[i], limit);
+      const bool crease = turns(mesh, edges[i]) && turns(mesh, edges[i + 1]);
+      const bool fixed = is_fixed(k) || is_fixed(l) || crease || limit < kLeastRoom * h[i];
+      p.reach[first + i] = fixed ? 0 : std::min(local * h[i], limit);
     }
   });
   std::vector<Real> node_limit(p.nodes, std::numeric_limits<Real>::infinity());
@@ -176,7 +187,7 @@ void set_reach(const Work& work, const MeshView& original, const RefinedMesh& re
   for (Index a = 0; a < graph.arc_count(); ++a) {
     bool free = !is_fixed(graph.kind[a]) && (!is_feature(graph.kind[a]) || graph.artificial[graph.start[a]]);
     const auto edges = graph.arc_edges.row(a);
-    for (Index e : {edges.front(), edges.back()}) free = free && !is_fixed(edge_kind(e));
+    for (Index e : {edges.front(), edges.back()}) free = free && !is_fixed(edge_kind(e)) && !turns(mesh, e);
     for (Index node : {graph.start[a], graph.end[a]}) {
       node_limit[node] = std::min(node_limit[node], arc_limit[a]);
       if (!free) held[node] = 1;

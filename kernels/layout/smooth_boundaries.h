@@ -30,13 +30,13 @@ struct SmoothedArcs {
   std::vector<std::uint8_t> fixed;
 };
 
-// Fixed: points on the mesh boundary and on sharp edges, nodes where a feature or border arc ends, everything whose
-// reach is zero. Their positions are RefinedMesh::origin, unchanged. All others come as points strictly inside a face.
-// The mean edge of a point is that of the faces around its start, smoothed along the arc, at most twice the mesh's
-// mean. Requires: label per refined face, the one `graph` was traced from; lines per original vertex (empty: length
-// only); refined is a refinement of `original`. Ensures: |moved - start| <= reach of the point (and 1/1000 of its face,
-// the distance kept from the edges); closed arcs that lost half of their length are put back. Source: Cao, Yan, Wonka
-// 2014, Eq. 8, as a quadratic form M = I + conf / lambda (J X)(J X)^T per segment.
+// Fixed: points on the mesh boundary, on sharp edges and on other creases of 60 degrees and more, nodes where a feature
+// or border arc ends, everything whose reach is zero. Their positions are RefinedMesh::origin, unchanged. All others
+// come as points strictly inside a face. The mean edge of a point is that of the faces around its start, smoothed along
+// the arc, at most twice the mesh's mean. Requires: label per refined face, the one `graph` was traced from; lines per
+// original vertex (empty: length only); refined is a refinement of `original`. Ensures: |moved - start| <= reach of the
+// point (and 1/1000 of its face, the distance kept from the edges); closed arcs that lost half of their length are put
+// back. Source: Cao, Yan, Wonka 2014, Eq. 8, as a quadratic form M = I + conf / lambda (J X)(J X)^T per segment.
 SmoothedArcs smooth_boundaries(const Work& work, MeshView original, const RefinedMesh& refined,
                                const LayoutGraph& graph, std::span<const Index> label, const PrincipalLines& lines,
                                const SmoothOptions& options = {});
