@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <doctest/doctest.h>
 
@@ -80,6 +81,30 @@ TEST_CASE("a zigzag in the plane becomes its chord") {
     CHECK(length_of(points) == doctest::Approx(1).epsilon(1e-4));
     for (const Vec3& p : points) CHECK(std::abs(p.y() - 0.5) < 0.01 / kCells);
   }
+}
+
+TEST_CASE("a border along a crease stays there though no curve of the network runs along it") {
+  // The zigzag becomes the edge of a roof that turns by 90 degrees, or by 30.
+  const auto moved_share = [](Real degrees) {
+    Soup s = zigzag_plane();
+    const Real slope = std::tan(degrees / 2 * std::numbers::pi / 180);
+    for (std::size_t v = 0; v < s.x.size(); ++v) {
+      const std::size_t row = v / (kCells + 1);
+      if (row != kCells / 2) s.z[v] = -slope * std::abs(s.y[v] - 0.5);
+    }
+    const LayoutCase c = identity_case(std::move(s), lower_half, CurveKind::extension);
+    LayoutCase unknown = c;
+    std::fill(unknown.refined.on_network.begin(), unknown.refined.on_network.end(), 0);
+    const LayoutGraph g = trace(unknown);
+    const Index a = inner_arc(g);
+    REQUIRE(a != kNone);
+    const auto smoothed = smooth_boundaries(Work(), c.mesh, unknown.refined, g, c.label, {}, {});
+    Index moved = 0;
+    for (Index i = smoothed.offset[a]; i < smoothed.offset[a + 1]; ++i) moved += smoothed.fixed[i] ? 0 : 1;
+    return static_cast<Real>(moved) / (smoothed.offset[a + 1] - smoothed.offset[a]);
+  };
+  CHECK(moved_share(90) == 0);
+  CHECK(moved_share(30) == 1);
 }
 
 TEST_CASE("no point gets farther from its start than its reach; features less; sharp and border stay") {
