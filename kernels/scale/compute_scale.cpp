@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/parallel/for_each.h"
 #include "engine/parallel/reduce.h"
@@ -90,16 +91,12 @@ class DiscChoice {
   // take(vertex, code) for every flat vertex below cluster c of the start level; code 0 where no disc sees a bend.
   template <class Take>
   void run(Index c, const Codes& flat, const Take& take) {
-    seeker_.clear();
-    collect(start_level(build_.levels), c, flat);
-    for (int code = kFirstDisc; code <= last_; ++code) {
-      place_discs(code);
-      variation_.resize(cluster_.size());
-      voting_.run(cluster_, centre_, code, variation_);
-      for (const Open& o : open_) {
-        o.seeker->variation[o.seeker->size++] = variation_[o.disc];
-        o.seeker->done = variation_[o.disc] >= o_.select.bent;
-      }
+    // What flat discs are is not asked for, unless the choice could depend on it.
+    voting_.skip_below(o_.select.flat);
+    measure(c, flat);
+    if (!std::all_of(seeker_.begin(), seeker_.end(), [&](const Seeker& s) { return decided(s); })) {
+      voting_.skip_below(0);
+      measure(c, flat);
     }
     for (const Seeker& s : seeker_) {
       const int code = choose_disc(std::span(s.variation).first(s.size), s.first, o_.select);
@@ -121,6 +118,35 @@ class DiscChoice {
     Seeker* seeker;
     std::size_t disc;
   };
+
+  // The variation of the discs, one code after the other.
+  void measure(Index c, const Codes& flat) {
+    seeker_.clear();
+    collect(start_level(build_.levels), c, flat);
+    for (int code = kFirstDisc; code <= last_; ++code) {
+      place_discs(code);
+      variation_.resize(cluster_.size());
+      voting_.run(cluster_, centre_, code, variation_);
+      for (const Open& o : open_) {
+        o.seeker->variation[o.seeker->size++] = variation_[o.disc];
+        o.seeker->done = variation_[o.disc] >= o_.select.bent;
+      }
+    }
+  }
+
+  // Whether choose_disc() comes to the same whatever the skipped discs are, between 0 and omega_-: all are flat, or one
+  // that was measured is closer to omega_+ than they can be, by more than the slack.
+  bool decided(const Seeker& s) const {
+    bool skipped = false;
+    Real most = 0, nearest = std::numeric_limits<Real>::infinity();
+    for (const Real w : std::span(s.variation).first(s.size)) {
+      if (w == 0)
+        skipped = true;
+      else
+        most = std::max(most, w), nearest = std::min(nearest, std::abs(w - o_.select.bent));
+    }
+    return !skipped || most < o_.select.flat || nearest + o_.select.slack < o_.select.bent - o_.select.flat;
+  }
 
   // One disc for all seekers below a cluster of the level finer than its samples: they are at most a twelfth of the
   // radius from its centre. At the level of the samples themselves half of the time is saved on dense scans, but crests

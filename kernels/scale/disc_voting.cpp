@@ -9,11 +9,11 @@ namespace intarsia::kernels {
 
 namespace {
 
-constexpr std::size_t kPack = DiscSamples::kPack;
+constexpr std::size_t kPack = SampleTiles::kPack;
 
-// Of one cluster: where it is, and what makes distances into weights.
+// Of one cluster: what makes distances into weights.
 struct Disc {
-  float x, y, z, inverse_radius, inverse_cell, edge;
+  float inverse_radius, inverse_cell, edge;
 };
 
 namespace baseline {
@@ -44,12 +44,14 @@ void DiscVoting::run(std::span<const Index> clusters, std::span<const Vec3> cent
     const std::size_t count = std::min(kPack, clusters.size() - begin);
     for (std::size_t l = 0; l < count; ++l) {
       const Index c = clusters[begin + l];
-      const DiscSamples::View samples = samples_.around(c, code);
       const Vec3 centre = centres.empty() ? build_.levels.level[0].centre[c] : centres[begin + l];
-      const Vec3 at = centre - samples.origin;
-      const Disc disc{static_cast<float>(at.x()),           static_cast<float>(at.y()),
-                      static_cast<float>(at.z()),           static_cast<float>(1 / samples.radius),
-                      static_cast<float>(1 / samples.cell), static_cast<float>(samples.radius / samples.cell + 0.5)};
+      const DiscSamples::View samples = samples_.around(c, code, centre, skip_);
+      if (samples.packs == 0) {
+        for (std::size_t i = 0; i < 6; ++i) tensors.of[kPack * i + l] = 0;
+        continue;
+      }
+      const Disc disc{static_cast<float>(1 / samples.radius), static_cast<float>(1 / samples.cell),
+                      static_cast<float>(samples.radius / samples.cell + 0.5)};
       Sums sums;
       if (set_ == InstructionSet::avx512)
         avx512::sum_disc(disc, samples, sums.of);

@@ -17,6 +17,9 @@ class DiscVoting {
   explicit DiscVoting(const LevelBuild& build, InstructionSet set = instruction_set())
       : build_(build), set_(set), samples_(build) {}
 
+  // From now on, discs whose variation is certainly below this get 0, and are not voted on. 0: none.
+  void skip_below(Real variation) { skip_ = flat_chord(variation); }
+
   // variation[i] = that of clusters[i] (of level 0) in the disc `code` around centres[i]; without centres, around their
   // own. Fast where clusters that follow each other have a parent in common. Requires: as many of all; is_disc(code);
   // centres hardly outside of an ancestor that is not above the level of the disc's samples.
@@ -27,6 +30,7 @@ class DiscVoting {
   const LevelBuild& build_;
   InstructionSet set_;
   DiscSamples samples_;
+  float skip_ = 0;  // chord
 };
 
 }  // namespace intarsia::kernels

@@ -143,7 +143,7 @@ Csr cluster_graph(const Work& work, CsrView graph, const std::vector<Index>& par
 
 // What a cluster sums over its items.
 struct Share {
-  Vec3 weighted = Vec3::Zero(), plain = Vec3::Zero();
+  Vec3 weighted = Vec3::Zero(), plain = Vec3::Zero(), normal = Vec3::Zero();
   Real area = 0, spacing = 0, items = 0;
   Tensor tensor{};
   void add(const Vec3& p, Real a, const Tensor& t) {
@@ -154,16 +154,19 @@ struct Share {
 
 void add_vertex(const MeshView& mesh, std::span<const VotingFace> faces, Index v, Share& share) {
   Tensor t{};
+  Vec3 normal = Vec3::Zero();
   Real area = 0;
   for (Index f : mesh.vertex_faces.row(v)) {
     const VotingFace& r = faces[f];
     const Real a = Real{r.area} / 3;
     const Real x = r.normal[0], y = r.normal[1], z = r.normal[2];
     area += a;
+    normal += a * Vec3(x, y, z);
     t[0] += a * x * x, t[1] += a * x * y, t[2] += a * x * z;
     t[3] += a * y * y, t[4] += a * y * z, t[5] += a * z * z;
   }
   share.add(mesh.point(v), area, t);
+  share.normal += normal;
 }
 
 }  // namespace
@@ -188,13 +191,15 @@ LevelBuild build_sample_levels(const Work& work, const MeshView& mesh, std::span
     level.spacing.resize(clusters);
     std::vector<Tensor> tensor(clusters);
     std::vector<Real> spacing(clusters);
+    Vec3Array normal(clusters);
     const SampleLevel* below = l == 0 ? nullptr : &build.levels.level[l - 1];
     for_each(work, kBlock, clusters, [&](std::size_t c) {
       Share s;
       for (Index i : level.member.row(static_cast<Index>(c))) {
         if (below) {
-          s.add(below->centre[i], below->area[i], build.tensor[l - 1][i]);
+          s.add(below->centre[i], below->area[i], build.sums[l - 1].tensor[i]);
           s.spacing += below->spacing[i];
+          s.normal += build.sums[l - 1].normal[i];
         } else {
           add_vertex(mesh, faces, i, s);
         }
@@ -202,6 +207,7 @@ LevelBuild build_sample_levels(const Work& work, const MeshView& mesh, std::span
       level.centre.set(c, s.area > 0 ? Vec3(s.weighted / s.area) : Vec3(s.plain / s.items));
       level.area[c] = s.area;
       tensor[c] = s.tensor;
+      normal.set(c, s.normal);
       // 2/sqrt(3) h^2 / 2 is the area around a vertex of the regular triangular mesh with edges h.
       spacing[c] = below ? s.spacing / s.items : std::sqrt(s.area / s.items * 1.1547005383792515);
     });
@@ -212,7 +218,7 @@ LevelBuild build_sample_levels(const Work& work, const MeshView& mesh, std::span
       level.spacing[c] = sum / static_cast<Real>(row.size() + 1);
     });
     build.levels.level.push_back(std::move(level));
-    build.tensor.push_back(std::move(tensor));
+    build.sums.push_back({std::move(tensor), std::move(normal)});
     const SampleLevel& top = build.levels.level.back();
     Real finest = top.spacing[0];
     for (Real s : top.spacing) finest = std::min(finest, s);
@@ -221,6 +227,8 @@ LevelBuild build_sample_levels(const Work& work, const MeshView& mesh, std::span
     // The last level serves no disc: those that share samples are below its clusters.
     if (3.2 * SampleLevels::cell(l, finest) > max_radius) break;
   }
+  for (std::size_t l = 0; l < build.levels.level.size(); ++l)
+    build.tiles.push_back(sample_tiles(work, build.levels, build.sums, l));
   return build;
 }
 
@@ -229,7 +237,7 @@ Real disc_variation(const LevelBuild& build, Index c, int code, DiscWalker& walk
   const Vec3 at = build.levels.level[0].centre[c];
   const DiscWalker::Samples samples = walker.around(c, code);
   const SampleLevel& level = build.levels.level[samples.level];
-  const auto& tensor = build.tensor[samples.level];
+  const auto& tensor = build.sums[samples.level].tensor;
   const Real limit = radius + 0.5 * samples.cell;
   Tensor sum{};
   for (Index s : samples.id) {

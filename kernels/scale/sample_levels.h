@@ -10,6 +10,7 @@
 #include "engine/data/mesh.h"
 #include "engine/data/sample_levels.h"
 #include "engine/parallel/work.h"
+#include "kernels/scale/sample_tiles.h"
 #include "kernels/scale/voting_faces.h"
 #include "kernels/scale/voting_tensor.h"
 
@@ -17,7 +18,8 @@ namespace intarsia::kernels {
 
 struct LevelBuild {
   SampleLevels levels;
-  std::vector<std::vector<Tensor>> tensor;  // per level, per cluster: sum of A n n^T
+  std::vector<SampleSums> sums;    // per level
+  std::vector<SampleTiles> tiles;  // per level
 };
 
 // Levels for discs up to `max_radius` and one above them; fewer where a level would not shrink the one below.

@@ -100,7 +100,7 @@ TEST_CASE("sample levels partition the surface into small connected clusters") {
     Real area = 0, trace = 0;
     for (Index c = 0; c < level.size(); ++c) {
       area += level.area[c];
-      trace += build.tensor[l][c][0] + build.tensor[l][c][3] + build.tensor[l][c][5];
+      trace += build.sums[l].tensor[c][0] + build.sums[l].tensor[c][3] + build.sums[l].tensor[c][5];
       const auto row = level.member.row(c);
       const std::set<Index> member(row.begin(), row.end());
       std::set<Index> met{row.front()};

@@ -40,3 +40,27 @@ TEST_CASE("discs by packs are discs one by one, on every instruction set and in 
     }
   }
 }
+
+TEST_CASE("discs that are not voted on are below the bound") {
+  for (const Soup& soup : {ellipsoid(6, 1, 0.7, 0.4), jittered(plane(120, 90), 0.0002, 3)}) {
+    const TestSurface s = make_surface(soup);
+    const LevelBuild build = build_sample_levels(Work{}, s.mesh, voting_faces(Work{}, s.mesh), 0.15);
+    std::vector<Index> clusters(build.levels.level[0].size());
+    for (Index c = 0; c < clusters.size(); ++c) clusters[c] = c;
+    std::vector<Real> omega(clusters.size()), some(clusters.size());
+    DiscVoting voting(build), hasty(build);
+    hasty.skip_below(0.1);
+    Index skipped = 0, wrong = 0;
+    for (int code : {13, 15, 17}) {
+      voting.run(clusters, code, omega);
+      hasty.run(clusters, code, some);
+      for (Index c = 0; c < clusters.size(); ++c) {
+        if (some[c] == omega[c]) continue;
+        ++skipped;
+        wrong += some[c] != 0 || omega[c] >= 0.1;
+      }
+    }
+    CHECK(wrong == 0);
+    CHECK(skipped > clusters.size() / 4);
+  }
+}
