@@ -31,10 +31,22 @@ Real merge_cost(const PatchGraph& graph, Index p, const Border& b, const MergeOp
          options.compactness * std::max(Real{0}, bend);
 }
 
+namespace {
+
+// Is the border a crease all around, on average? Then even a narrow patch is a face of the part: a side of a bar.
+bool is_between_creases(const PatchNode& n, const MergeOptions& options) {
+  Real salience = 0, length = 0;
+  for (const Border& b : n.borders) salience += b.salience, length += b.length;
+  return salience >= options.crease * options.crease * length;
+}
+
+}  // namespace
+
 bool is_tiny(const PatchGraph& graph, Index p, const PatchSurface& surface, const MergeOptions& options) {
   const PatchNode& n = graph[p];
-  return n.area < options.tiny_area * surface.total_area ||
-         2 * n.area < std::min(options.tiny_width * surface.mean_edge, options.widest_tiny) * n.perimeter;
+  if (n.area < options.tiny_area * surface.total_area) return true;
+  const Real narrow = std::min(options.tiny_width * surface.mean_edge, options.widest_tiny);
+  return 2 * n.area < narrow * n.perimeter && !is_between_creases(n, options);
 }
 
 Index merge_tiny(const Work& work, const PatchSurface& surface, const MergeOptions& options, PatchGraph& graph) {

@@ -13,6 +13,7 @@ struct MergeOptions {
   Real tiny_area = 8e-4;    // of the whole area; smaller patches merge
   Real tiny_width = 2;      // mean edge lengths; patches with 2 A / P below merge
   Real widest_tiny = 0.04;  // but none that are wider than this, diagonals: a cube of twelve triangles has six sides
+  Real crease = 1;          // nor any whose border turns by more, radians (root mean square)
   Real salience_weight = 0.02;  // per integral of theta^2 ds along the border that would vanish
   Real border_reward = 0.01;    // per length of the border that would vanish
   Real compactness = 0.02;      // times A max(0, P^2 / (4 pi A) - free_winding) of the union, minus that of the parts

@@ -54,7 +54,10 @@ TEST_CASE("a star of 10 000 or 100 000 triangles, even or uneven, gets the same 
 }
 
 TEST_CASE("a bar of twelve long triangles has six faces") {
-  const Soup bar = transformed(cube(1), [](const Vec3& p) { return Vec3(30 * p.x(), p.y(), p.z()); });
+  Real length = 0;
+  SUBCASE("30 : 1 : 1") { length = 30; }
+  SUBCASE("300 : 1 : 1, narrower than the steps in which features are looked for") { length = 300; }
+  const Soup bar = transformed(cube(1), [length](const Vec3& p) { return Vec3(length * p.x(), p.y(), p.z()); });
   graph::LayoutOptions options = graph::robust_options();
   options.split_edges.uneven = 0.5;
   const LayoutRun run = run_layout(bar, options);

@@ -73,6 +73,19 @@ TEST_CASE("a thin strip merges, wide neighbours stay, and the count agrees") {
   CHECK(test::is_connected(s.mesh, merged));
 }
 
+TEST_CASE("a strip is a face of its own between two folds, however narrow, and merges between two slight ones") {
+  // A ridge's flat top, 0.025 wide with triangles of that size: its sides fall away by `slope`.
+  const auto count = [](Real slope) {
+    const auto soup = test::height_field(
+        40, 40, 0, 1, 0, 1, [&](Real x, Real) { return -slope * std::max(Real{0}, std::abs(x - 0.5125) - 0.0125); });
+    const auto t = cut_along_x(soup, [](Real x) { return near(x, 0.5) || near(x, 0.525); });
+    const auto s = test::surface_of(t);
+    return merge_patches(Work(), s, flood_patches(Work(), s.mesh, t.refined.on_network), {}).count;
+  };
+  CHECK(count(std::tan(1.2)) == 3);
+  CHECK(count(std::tan(0.8)) == 2);
+}
+
 TEST_CASE("the sharp border stays when another neighbour will do") {
   // A sliver between a fold of 60 degrees at x = 0.5 and a drawn line at x = 0.525 in the same plane.
   for (const bool mirrored : {false, true}) {
