@@ -11,7 +11,7 @@ namespace intarsia::kernels {
 
 namespace {
 
-constexpr Cost kBlock = Cost::light;
+constexpr Cost kBlock{4096};  // clusters end at blocks, whose size is therefore part of the method
 constexpr std::size_t kBlockSize = static_cast<std::size_t>(kBlock);
 constexpr Index kTarget = 4;  // items a cluster
 constexpr Index kLoose = 2;   // clusters of at most this size are shared out
