@@ -118,10 +118,8 @@ void add_batch_command(CLI::App& app, int& exit_code) {
   command->add_option("--jobs", flags->jobs, "most meshes side by side; 0 = as many as threads")
       ->check(whole_number(0, kMostThreads));
   add_threads_flag(*command, flags->threads, "threads in all");
-  command
-      ->add_option("--max-memory", flags->memory,
-                   "of all meshes at a time: bytes, or with K M G (of 1024); default: 80 % of what is free")
-      ->transform(CLI::AsSizeValue(false));
+  add_memory_flag(*command, flags->memory,
+                  "of all meshes at a time: bytes, or with K M G (of 1024); default: 80 % of what is free");
   command->add_option("--shard", flags->shard,
                       "i/n: every n-th mesh from the i-th; default: Slurm's array task, or all");
   command->add_flag("--resume", flags->resume, "leave out what is done: same file, same options");

@@ -50,9 +50,8 @@ void add_common_flags(CLI::App& app, CommonFlags& flags) {
   app.add_option("--seed", flags.seed, "of the random subdivision seeds in paper mode")
       ->check(whole_number(0))
       ->capture_default_str();
-  app.add_option("--max-memory", flags.max_memory,
-                 "refuse at once what would need more memory, by forecast: bytes, or with K M G (of 1024)")
-      ->transform(CLI::AsSizeValue(false));
+  add_memory_flag(app, flags.max_memory,
+                  "refuse at once what would need more memory, by forecast: bytes, or with K M G (of 1024)");
   add_length_flag(app, "--min-feature", flags.min_feature, "details below this size get no patches");
   app.add_flag("--strict", flags.strict, "refuse a mesh that is no oriented 2-manifold instead of mending it");
   app.add_option("--report", flags.report, "write the report to this file too");

@@ -1,5 +1,6 @@
 #include "tools/usual_flags.h"
 
+#include <cctype>
 #include <charconv>
 
 #include <fmt/format.h>
@@ -33,6 +34,17 @@ CLI::Validator file_ending(std::string ending) {
 
 void add_threads_flag(CLI::App& app, int& threads, const std::string& help) {
   app.add_option("-t,--threads", threads, help + "; 0 = all allowed processors")->check(whole_number(0, kMostThreads));
+}
+
+void add_memory_flag(CLI::App& app, std::uint64_t& bytes, const std::string& help) {
+  // CLI11 takes what is below zero and makes a very large number of it.
+  const auto check = [](std::string& text) -> std::string {
+    if (!text.empty() && (std::isdigit(static_cast<unsigned char>(text[0])) || text[0] == '.')) return {};
+    return fmt::format("must be a number of bytes, such as 800M or 12G, not '{}'", text);
+  };
+  app.add_option("--max-memory", bytes, help)
+      ->transform(CLI::AsSizeValue(false))
+      ->transform(CLI::Validator(check, ""));  // the last one comes first
 }
 
 void add_quiet_flag(CLI::App& app, bool& quiet) { app.add_flag("-q,--quiet", quiet, "print nothing but errors"); }

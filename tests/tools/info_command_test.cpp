@@ -86,6 +86,7 @@ TEST_CASE("a mesh that needs more than --max-memory is refused before any work, 
   CHECK(run("4G").status == 0);
   CHECK(std::filesystem::exists(out + "/report.json"));
   CHECK(run("a lot").status == 2);
+  CHECK(run("-1").status == 2);
   const auto features =
       run_program(INTARSIA_PROGRAM, {"features", mesh, "-o", folder / "f.ply", "--max-memory", "1M"}, folder);
   CHECK(features.status == 6);

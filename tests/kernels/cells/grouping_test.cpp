@@ -25,6 +25,14 @@ std::vector<Index> sides_of_cells(const CellMesh& m) {
   return side;
 }
 
+// A sphere cut into cells by planes across the three axes, in so many steps a radius.
+CellMesh boxed_sphere(int levels, Real x, Real y, Real z) {
+  return cell_mesh(icosphere(levels), [x, y, z](const Vec3& p, const Vec3&) {
+    return static_cast<Index>(x * (p.x() + 1)) + 16 * static_cast<Index>(y * (p.y() + 1)) +
+           256 * static_cast<Index>(z * (p.z() + 1));
+  });
+}
+
 }  // namespace
 
 TEST_CASE("merging the quarters of a cube's sides gives the six sides, rebuilt exactly") {
@@ -78,10 +86,7 @@ TEST_CASE("a cell on the wrong side of an edge goes back, and the cost never ris
 }
 
 TEST_CASE("refinement lowers the cost, keeps discs, and does not depend on threads") {
-  const CellMesh m = cell_mesh(icosphere(4), [](const Vec3& p, const Vec3&) {
-    return static_cast<Index>(4 * (p.x() + 1)) + 16 * static_cast<Index>(4 * (p.y() + 1)) +
-           256 * static_cast<Index>(2 * (p.z() + 1));
-  });
+  const CellMesh m = boxed_sphere(4, 4, 4, 2);
   const auto run = [&](int threads) {
     return run_with_threads(threads, [&] {
       Grouping g(Work(), m.complex, identity(m.cells.count), m.cells.count, {});
@@ -102,10 +107,7 @@ TEST_CASE("refinement lowers the cost, keeps discs, and does not depend on threa
 }
 
 TEST_CASE("after refinement every group has the shape that it has when looked at anew") {
-  const CellMesh m = cell_mesh(icosphere(4), [](const Vec3& p, const Vec3&) {
-    return static_cast<Index>(5 * (p.x() + 1)) + 16 * static_cast<Index>(5 * (p.y() + 1)) +
-           256 * static_cast<Index>(3 * (p.z() + 1));
-  });
+  const CellMesh m = boxed_sphere(4, 5, 5, 3);
   Grouping g(Work(), m.complex, identity(m.cells.count), m.cells.count, {});
   g.weigh(9);
   merge_groups(Work(), 9, g);
@@ -127,10 +129,7 @@ TEST_CASE("after refinement every group has the shape that it has when looked at
 }
 
 TEST_CASE("the first merge is the cheapest of all unions that are discs") {
-  const CellMesh m = cell_mesh(icosphere(3), [](const Vec3& p, const Vec3&) {
-    return static_cast<Index>(3 * (p.x() + 1)) + 16 * static_cast<Index>(2 * (p.y() + 1)) +
-           256 * static_cast<Index>(2 * (p.z() + 1));
-  });
+  const CellMesh m = boxed_sphere(3, 3, 2, 2);
   Grouping g(Work(), m.complex, identity(m.cells.count), m.cells.count, {});
   g.weigh(12);
   GroupScratch scratch;
