@@ -135,7 +135,8 @@ def check(browser, page, pictures):
     assert browser.value("document.querySelector('#detail h2').textContent").startswith(f'Patch {patch}')
     assert browser.value("document.querySelector('.row.selected').dataset.patch") == str(patch)
     browser.picture(pictures / 'selected.png')
-    row = browser.value('(() => { const r = document.querySelector(".row:not(.selected)"), b = r.getBoundingClientRect();'
+    row = browser.value('(() => { const s = document.querySelector(".row.selected"),'
+                        ' r = s.previousElementSibling ?? s.nextElementSibling, b = r.getBoundingClientRect();'
                         ' return [b.x + 30, b.y + 10, +r.dataset.patch]; })()')
     browser.click(row[0], row[1])
     browser.wait(f'intarsia.state.selected === {row[2]}')

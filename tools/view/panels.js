@@ -84,15 +84,18 @@ class PatchTable {
   show(hovered, selected, scroll) {
     const changed = selected !== this.selected;
     this.hovered = hovered, this.selected = selected;
+    if (changed) this.detail(selected);  // first: it takes room from the rows
     if (scroll && selected >= 0 && changed) {
       const rows = byId('rows'), y = this.order.indexOf(selected) * kRow;
-      if (y < rows.scrollTop || y > rows.scrollTop + rows.clientHeight - kRow) rows.scrollTop = y - rows.clientHeight / 2;
+      if (y < rows.scrollTop || y > rows.scrollTop + rows.clientHeight - kRow) {
+        rows.scrollTop = y - rows.clientHeight / 2;
+        this.fill();
+      }
     }
     for (const row of byId('space').children) {
       row.classList.toggle('hover', +row.dataset.patch === hovered);
       row.classList.toggle('selected', +row.dataset.patch === selected);
     }
-    if (changed) this.detail(selected);
   }
   detail(p) {
     const box = byId('detail'), of = this.meta.patches;
