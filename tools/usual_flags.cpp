@@ -39,7 +39,7 @@ void add_threads_flag(CLI::App& app, int& threads, const std::string& help) {
 void add_memory_flag(CLI::App& app, std::uint64_t& bytes, const std::string& help) {
   // CLI11 takes what is below zero and makes a very large number of it.
   const auto check = [](std::string& text) -> std::string {
-    if (!text.empty() && (std::isdigit(static_cast<unsigned char>(text[0])) || text[0] == '.')) return {};
+    if (!text.empty() && std::isdigit(static_cast<unsigned char>(text[0]))) return {};
     return fmt::format("must be a number of bytes, such as 800M or 12G, not '{}'", text);
   };
   app.add_option("--max-memory", bytes, help)
