@@ -53,6 +53,20 @@ TEST_CASE("maps to the circle turn no triangle, however deep the cap") {
   }
 }
 
+TEST_CASE("a square that is squeezed half a million times against a circle becomes a square again") {
+  const PatchPiece square = test::grid_piece(30, 30, [](Real u, Real v) { return Vec3(u, v, 0); });
+  std::vector<Vec2> squeezed;
+  for (const Vec3& p : square.point) {
+    const Real r = 2 - std::exp(13 * (p.y() - 1)), a = 1 - 2 * p.x();  // towards a circle
+    squeezed.emplace_back(r * std::sin(a), r * std::cos(a));
+  }
+  REQUIRE(turned_area(square, squeezed).turned == 0);
+  const std::vector<Vec2> uv = reduce_distortion(square, squeezed, 200);
+  const auto [low, high] = stretch(square, uv);
+  CHECK(low > 0.8);
+  CHECK(high < 1.2);
+}
+
 TEST_CASE("a developable patch unrolls with little distortion, also past a full turn's three quarters") {
   const PatchPiece sector = test::cylinder_sector(60, 12, 1.7 * std::numbers::pi);
   const std::vector<Vec2> uv = reduce_distortion(sector, map_to_circle(sector), 200);
