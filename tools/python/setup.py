@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+import sysconfig
 
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
@@ -16,15 +17,18 @@ class CMakeBuild(build_ext):
     """The files of build/python/intarsia, as CMake puts them together for this interpreter."""
 
     def run(self):
-        build = pathlib.Path(os.environ.get("INTARSIA_BUILD", ROOT / "build" / "wheel"))
-        if not build.is_absolute():
-            build = ROOT / build
-        subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-D", "CMAKE_BUILD_TYPE=Release",
-                        "-D", f"INTARSIA_PYTHON={sys.executable}"], check=True)
-        subprocess.run(["cmake", "--build", build, "--target", "intarsia_python"], check=True)
+        given = os.environ.get("INTARSIA_BUILD")  # built already: nothing is changed there
+        build = ROOT / (given or "build/wheel")
+        if not given:
+            subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-D", "CMAKE_BUILD_TYPE=Release",
+                            "-D", "INTARSIA_TESTS=OFF", "-D", f"INTARSIA_PYTHON={sys.executable}"], check=True)
+            subprocess.run(["cmake", "--build", build, "--target", "intarsia_python"], check=True)
+        module = build / "python" / "intarsia" / ("_core" + sysconfig.get_config_var("EXT_SUFFIX"))
+        if not module.is_file():
+            sys.exit(f"{module} is not there: it was not built, or for another interpreter than {sys.executable}")
         target = pathlib.Path(self.build_lib) / "intarsia"
         target.mkdir(parents=True, exist_ok=True)
-        for file in sorted((build / "python" / "intarsia").iterdir()):
+        for file in sorted(module.parent.iterdir()):
             if file.is_file():
                 shutil.copy2(file, target)
 

@@ -107,8 +107,8 @@ std::vector<Vec2> reduce_distortion(const PatchPiece& piece, std::span<const Vec
   if (!std::isfinite(before)) return best;
   Real all = 0;
   for (std::size_t t = 0; t < energy.triangles(); ++t) all += energy.rest(t).area;
-  // Not LLT: from a map that squeezes parts of the patch a thousandfold the weights span twenty orders of magnitude, and
-  // rounding makes small pivots negative. Whatever direction comes of it, the line search takes it only downhill.
+  // Not LLT: where the map squeezes parts of the patch a thousandfold the weights span twenty orders of magnitude, and
+  // rounding turns small pivots negative. Whatever direction comes of it, the line search takes it downhill only.
   Eigen::SimplicialLDLT<Sparse> solver;
   std::vector<Eigen::Triplet<Real, int>> entries;
   for (int round = 0; round < iterations; ++round) {
