@@ -31,7 +31,7 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
 }
 
 std::string likely_word(const std::string& word, const std::vector<std::string>& known) {
-  const std::string nearest = nearest_word(word, known);
+  std::string nearest = nearest_word(word, known);
   if (!nearest.empty() && 3 * edits(word, nearest) <= std::max(word.size(), nearest.size()) + 1) return nearest;
   constexpr std::size_t kLeastLetters = 3;
   // the last part of a dotted name is what people remember of it

@@ -116,7 +116,7 @@ OutputFolder::~OutputFolder() {
 fs::path OutputFolder::file(const std::string& name) const {
   if (std::find(our_names_.begin(), our_names_.end(), name) == our_names_.end())
     throw Error(ErrorCode::internal, "'" + name + "' is not in the list of result files");
-  const fs::path path = fresh_ / name;
+  fs::path path = fresh_ / name;
   if (path.parent_path() != fresh_ && ::mkdir(path.parent_path().c_str(), 0777) != 0 && errno != EEXIST)
     throw_write_failed(target_ / name, "cannot be written: no folder can be made for it", errno);
   return path;

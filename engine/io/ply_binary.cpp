@@ -99,6 +99,7 @@ class BinaryReader {
       const char* from = take(element, item, corner.size() * size_of(property.type));
       with_type(property.type, [&](auto t) {
         for (std::size_t i = 0; i < corner.size(); ++i)
+          // An int8 is a number here, no character. NOLINTNEXTLINE(bugprone-signed-char-misuse)
           corner[i] = static_cast<std::int64_t>(load<decltype(t), kSwap>(from + i * sizeof t));
       });
       if (task.kind == PlyTask::Kind::polygons)

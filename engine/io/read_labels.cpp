@@ -37,15 +37,16 @@ class Values {
     }
     const std::size_t bytes = size_of(type);
     if (body_.size() - at_ < bytes) ends(element, item);
+    const bool is_signed = type == PlyType::int8 || type == PlyType::int16 || type == PlyType::int32;
     std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < bytes; ++i) {
-      const std::size_t from = format_ == PlyFormat::big_endian ? bytes - 1 - i : i;
-      bits |= std::uint64_t{static_cast<unsigned char>(body_[at_ + from])} << (8 * i);
+    for (std::size_t i = 0; i < bytes; ++i) {  // the byte of most weight first
+      const std::size_t from = format_ == PlyFormat::big_endian ? i : bytes - 1 - i;
+      const auto byte = static_cast<unsigned char>(body_[at_ + from]);
+      if (i == 0 && is_signed && byte >= 0x80) bits = ~std::uint64_t{0};
+      bits = bits << 8 | byte;
     }
     at_ += bytes;
-    const bool is_signed = type == PlyType::int8 || type == PlyType::int16 || type == PlyType::int32;
-    const int unused = 64 - 8 * static_cast<int>(bytes);
-    return is_signed ? static_cast<std::int64_t>(bits << unused) >> unused : static_cast<std::int64_t>(bits);
+    return static_cast<std::int64_t>(bits);
   }
 
   void skip(const PlyElement& element, std::uint64_t item, const PlyProperty& property) {

@@ -38,7 +38,7 @@ struct Entry {
 // Squared distances from p to the triangles of a leaf: operation by operation those of closest_on_triangle(), so that
 // the bits agree; sums run as in Eigen, (x + y) + z. Choices are nested, since compilers take conjunctions of lane
 // masks apart lane by lane.
-#define INTARSIA_DOT(a, b) (a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
+#define INTARSIA_DOT(a, b) ((a)[0] * (b)[0] + (a)[1] * (b)[1] + (a)[2] * (b)[2])
 INTARSIA_WIDE void distances2(const Leaf& leaf, const Real* p, Real* out) {
   const Lanes zero{}, one = zero + 1.0;
   Lanes a[3], b[3], c[3], ab[3], ac[3], ap[3], bp[3], cp[3], bc[3], ca[3];

@@ -36,7 +36,7 @@ Real roughness(const Work& work, const MeshView& mesh, Vec3View face_normal) {
       }
       if (!counts || !(around.squaredNorm() > 0)) continue;
       const Real apart = (n - around.normalized()).norm();
-      ++bins[std::min(kBins - 1, static_cast<int>(apart * (kBins / 2)))];
+      ++bins[std::min(kBins - 1, static_cast<int>(apart * (kBins / 2.0)))];
     }
     return bins;
   };
