@@ -108,12 +108,37 @@ FIND = '''(() => {
   }
   return null;
 })()'''
+# Names of the panels in view that lie on the legend.
+ON_LEGEND = '''(() => {
+  const box = e => e.getBoundingClientRect(), a = box(document.getElementById('legend'));
+  return [...document.querySelectorAll('.card:not([hidden])')].filter(e => {
+    const b = box(e);
+    return a.width * a.height > 0 && a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+  }).map(e => e.id || e.tagName);
+})()'''
 AT_REST = '(() => { const c = intarsia.camera; return Math.abs(c.now.distance - c.goal.distance) < 1e-3 && c.now.azimuth === c.goal.azimuth; })()'
 
 
-def check(browser, page, pictures):
+def open_page(browser, page):
     browser.call('Page.navigate', url=page.as_uri())
     browser.wait('window.firstPicture > 0')
+
+
+def check_deviation(browser, page, pictures):
+    open_page(browser, page)
+    stages = browser.value('intarsia.stages.map(s => s.key)')
+    assert stages[-1] == 'deviation', stages
+    browser.value(f'intarsia.setStage({len(stages) - 1})')
+    assert browser.value("document.getElementById('legend').textContent").startswith('distance')
+    assert browser.value(ON_LEGEND) == [], browser.value(ON_LEGEND)
+    time.sleep(0.7)
+    browser.wait(AT_REST)
+    browser.picture(pictures / 'deviation.png')
+    assert not browser.trouble, browser.trouble
+
+
+def check(browser, page, pictures):
+    open_page(browser, page)
     print(f'first picture after {browser.value("window.firstPicture"):.0f} ms')
     stages = browser.value('intarsia.stages.map(s => s.key)')
     assert stages == ['input', 'raw', 'filtered', 'network', 'patches'], stages
@@ -122,6 +147,7 @@ def check(browser, page, pictures):
     seen = set()
     for i, stage in enumerate(stages):
         browser.value(f'intarsia.setStage({i})')
+        assert browser.value(ON_LEGEND) == [], (stage, browser.value(ON_LEGEND))
         time.sleep(0.7)
         browser.wait(AT_REST)
         seen.add(browser.picture(pictures / f'{stage}.png'))
@@ -174,6 +200,8 @@ def main():
         browser = Browser(chromium, folder)
         try:
             check(browser, folder / 'out' / 'view.html', pictures)
+            subprocess.run([program, 'eval', folder / 'out', '-q'], check=True, stdout=subprocess.DEVNULL)
+            check_deviation(browser, folder / 'out' / 'view.html', pictures)
         finally:
             browser.end()
     print('the page works')
