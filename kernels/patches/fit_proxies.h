@@ -14,6 +14,7 @@ struct ProxyOptions {
   int max_iterations = 20;
   Real tolerance = 1e-4;  // relative drop of the energy that still counts
   int patience = 3;       // Lloyd with growing is not monotone: give up after so many rounds without a gain
+  Real least_share = 0;   // a region that is added must take so much of the area of the one that it is added to
 };
 
 struct ProxyFit {

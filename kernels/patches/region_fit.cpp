@@ -6,6 +6,7 @@ namespace intarsia::kernels {
 namespace {
 
 constexpr Index kFitAll = 8;      // regions up to which all are fitted again for each new seed
+constexpr int kAttempts = 16;     // seeds tried for one region
 constexpr Index kFitAround = 64;  // regions up to which the neighbours of the worst one are
 
 // The graph of some nodes alone. rank must hold kNone everywhere; afterwards it holds the place of each node.
@@ -33,7 +34,10 @@ RegionGraph induced(const RegionGraph& g, std::span<const Index> nodes, std::vec
 }  // namespace
 
 RegionFit::RegionFit(const Work& work, const RegionGraph& graph, std::vector<Index> seed, const ProxyOptions& options)
-    : graph_(&graph), fit_(fit_proxies(work, graph, std::move(seed), {}, options)), rank_(graph.nodes(), kNone) {
+    : graph_(&graph),
+      fit_(fit_proxies(work, graph, std::move(seed), {}, options)),
+      odd_(graph.nodes(), 0),
+      rank_(graph.nodes(), kNone) {
   collect_members();
 }
 
@@ -42,40 +46,57 @@ void RegionFit::collect_members() {
   for (Index n = 0; n < fit_.label.size(); ++n) members_[fit_.label[n]].push_back(n);
 }
 
-// The node of a region that fits its proxy worst, not its seed. Ties: smaller id.
+// The node of a region that fits its proxy worst, not its seed, not an odd one. Ties: smaller id.
 Index RegionFit::worst_node(Index r) const {
   Index worst = kNone;
   Real most = 0;
   for (const Index n : members_[r])
-    if (n != fit_.seed[r] && graph_->area[n] > 0)
+    if (n != fit_.seed[r] && graph_->area[n] > 0 && !odd_[n])
       if (const Real d = deviation(*graph_, n, fit_.proxy[r]); worst == kNone || d > most) most = d, worst = n;
   return worst;
 }
 
-bool RegionFit::add_seed_everywhere(const Work& work, Index r, const ProxyOptions& options) {
-  const Index n = worst_node(r);
-  if (n == kNone) return false;
+bool RegionFit::add_everywhere(const Work& work, Index r, Index node, const ProxyOptions& options) {
   std::vector<Index> seed = fit_.seed;
   std::vector<Vec3> proxy = fit_.proxy;
-  seed.push_back(n), proxy.push_back(graph_->mean_normal[n].normalized());
-  fit_ = fit_proxies(work, *graph_, std::move(seed), std::move(proxy), options);
+  seed.push_back(node), proxy.push_back(graph_->mean_normal[node].normalized());
+  ProxyFit fit = fit_proxies(work, *graph_, std::move(seed), std::move(proxy), options);
+  if (fit.area.back() < options.least_share * fit_.area[r]) return false;
+  fit_ = std::move(fit);
   collect_members();
   return true;
 }
 
+bool RegionFit::add_seed_everywhere(const Work& work, Index r, const ProxyOptions& options) {
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    const Index node = worst_node(r);
+    if (node == kNone) return false;
+    if (add_everywhere(work, r, node, options)) return true;
+    odd_[node] = 1;
+  }
+  return false;
+}
+
 std::vector<Index> RegionFit::add_seed(const Work& work, Index r, const ProxyOptions& options) {
   const Index count = regions();
-  if (count >= kFitAll && (count > kFitAround || (count & (count - 1)) != 0))
-    return add_seed_locally(work, r, count <= kFitAround, options);
   std::vector<Index> changed;
-  if (!add_seed_everywhere(work, r, options)) return changed;
-  for (Index i = 0; i < regions(); ++i) changed.push_back(i);
+  if (count < kFitAll || (count <= kFitAround && (count & (count - 1)) == 0)) {
+    if (!add_seed_everywhere(work, r, options)) return changed;
+    for (Index i = 0; i < regions(); ++i) changed.push_back(i);
+    return changed;
+  }
+  for (int attempt = 0; changed.empty() && attempt < kAttempts; ++attempt) {
+    const Index node = worst_node(r);
+    if (node == kNone) break;
+    changed = add_locally(work, r, node, count <= kFitAround, options);
+    if (changed.empty()) odd_[node] = 1;
+  }
   return changed;
 }
 
-std::vector<Index> RegionFit::add_seed_locally(const Work& work, Index r, bool around, const ProxyOptions& options) {
-  const Index seed = worst_node(r);
-  if (seed == kNone) return {};
+// Empty, and nothing changed, if the new region is too small.
+std::vector<Index> RegionFit::add_locally(const Work& work, Index r, Index node, bool around,
+                                          const ProxyOptions& options) {
   std::vector<Index> changed{r}, nodes;
   if (around)
     for (const Index n : members_[r])
@@ -88,9 +109,10 @@ std::vector<Index> RegionFit::add_seed_locally(const Work& work, Index r, bool a
   std::vector<Index> seeds;
   std::vector<Vec3> proxies;
   for (const Index c : changed) seeds.push_back(rank_[fit_.seed[c]]), proxies.push_back(fit_.proxy[c]);
-  seeds.push_back(rank_[seed]), proxies.push_back(graph_->mean_normal[seed].normalized());
+  seeds.push_back(rank_[node]), proxies.push_back(graph_->mean_normal[node].normalized());
   for (const Index n : nodes) rank_[n] = kNone;
   const ProxyFit part = fit_proxies(work, sub, std::move(seeds), std::move(proxies), options);
+  if (part.area.back() < options.least_share * fit_.area[r]) return {};
   changed.push_back(fit_.regions());
   fit_.seed.push_back(kNone), fit_.proxy.push_back({}), fit_.area.push_back(0), fit_.energy.push_back(0);
   members_.emplace_back();

@@ -1,6 +1,7 @@
 // Proxies fitted to one region, with more seeds added where they are wanted: what dividing a region is made of.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "kernels/patches/fit_proxies.h"
@@ -17,10 +18,11 @@ class RegionFit {
   Index regions() const { return fit_.regions(); }
   const std::vector<Index>& members(Index r) const { return members_[r]; }  // its nodes, ascending
 
-  // One more seed, at the node of region r that fits its proxy worst. With few regions all are fitted again, from the
-  // proxies they have; from eight on only r and its neighbours (all each time their number doubles), beyond 64 r alone:
-  // a full round for each seed would make the whole quadratic.
-  // Returns the regions that changed, the new one last; empty if r cannot be divided.
+  // One more seed, at the node of region r that fits its proxy worst (the next ones if what grows there is smaller than
+  // options.least_share: slivers that a curve cuts off, with the normal of what lies on its other side). With few
+  // regions all are fitted again, from the proxies they have; from eight on only r and its neighbours (all each time
+  // their number doubles), beyond 64 r alone: a full round for each seed would make the whole quadratic. Returns the
+  // regions that changed, the new one last; empty if r cannot be divided.
   std::vector<Index> add_seed(const Work& work, Index r, const ProxyOptions& options);
   // The same with all regions fitted again.
   bool add_seed_everywhere(const Work& work, Index r, const ProxyOptions& options);
@@ -33,13 +35,15 @@ class RegionFit {
 
  private:
   Index worst_node(Index r) const;
+  bool add_everywhere(const Work& work, Index r, Index node, const ProxyOptions& options);
   void collect_members();
-  std::vector<Index> add_seed_locally(const Work& work, Index r, bool around, const ProxyOptions& options);
+  std::vector<Index> add_locally(const Work& work, Index r, Index node, bool around, const ProxyOptions& options);
 
   const RegionGraph* graph_;
   ProxyFit fit_;
   std::vector<std::vector<Index>> members_;
-  std::vector<Index> rank_;  // scratch: place of each node in a part of the graph, kNone between calls
+  std::vector<std::uint8_t> odd_;  // per node: nothing grew around it
+  std::vector<Index> rank_;        // scratch: place of each node in a part of the graph, kNone between calls
 };
 
 }  // namespace intarsia::kernels

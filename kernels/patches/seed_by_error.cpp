@@ -14,6 +14,8 @@ namespace {
 // over the whole patch: then the regions become patches of their own.
 constexpr Index kOwnPatches = 64;
 
+constexpr Real kLeastShare = 0.03;  // of a region's area; what is less repairs nothing
+
 // One patch under division.
 struct Source {
   std::vector<Index> faces;  // ascending
@@ -30,10 +32,12 @@ class Seeding {
       : work_(work),
         s_(s),
         options_(options),
+        fit_(options.split.fit),
         regions_(labels),
         normal_(smooth_normals(work, s, labels.patch_of_face, options.split.smoothing)),
         source_(labels.count),
         count_(labels.count) {
+    fit_.least_share = kLeastShare;
     const Csr faces = faces_of_patches(labels);
     for (Index p = 0; p < labels.count; ++p) source_[p].faces.assign(faces.row(p).begin(), faces.row(p).end());
     auto pool = make_scratch_pool([] { return RegionErrorScratch(); });
@@ -101,7 +105,7 @@ class Seeding {
       if (source.graph->nodes() < 2) return false;
       source.fit =
           std::make_unique<RegionFit>(work_, *source.graph, farthest_normals(*source.graph, 2), options_.split.fit);
-    } else if (source.fit->add_seed(work_, region, options_.split.fit).empty()) {
+    } else if (source.fit->add_seed(work_, region, fit_).empty()) {
       return false;
     }
     before_.clear();
@@ -146,6 +150,7 @@ class Seeding {
   const Work& work_;
   const PatchSurface& s_;
   const ErrorSeedOptions& options_;
+  ProxyOptions fit_;  // of regions that are divided
   Regions regions_;
   SmoothNormals normal_;
   std::vector<Source> source_;

@@ -107,3 +107,23 @@ TEST_CASE("even cells lie inside patches, are connected, and of about even size"
     CHECK(a < 0.3);
   }
 }
+
+TEST_CASE("no seed is spent on a dent of one vertex, however far its normals are from all others") {
+  Soup soup = grid(60, 60, false, false, Diagonals::regular, [](Real u, Real v) {
+    const Real a = 2 * (u - 0.5);
+    return Vec3(std::sin(a), v, std::cos(a));
+  });
+  for (const std::size_t dent : {1850u, 1220u, 2480u}) {
+    soup.x[dent] *= 1.05, soup.z[dent] *= 1.05;
+  }
+  const TestRefinement t = sharp_refinement(soup, 4.0);
+  const PatchSurface s = surface_of(t);
+  const PatchLabels labels = flood_patches(Work(), s.mesh, t.refined.on_network);
+  REQUIRE(labels.count == 1);
+  const PatchLabels seeded = seed_by_error(Work(), s, labels, 12, {});
+  CHECK(seeded.count == 12);
+  std::vector<Real> area(seeded.count, 0);
+  Real total = 0;
+  for (Index f = 0; f < s.mesh.face_count(); ++f) area[seeded.patch_of_face[f]] += s.area[f], total += s.area[f];
+  for (const Real a : area) CHECK(a > 0.005 * total);
+}
