@@ -38,8 +38,8 @@ enum class SubdivideForm : std::uint8_t {
 };
 
 struct RefineOptions {
-  Real compact_perimeter = 0.9;  // share of sum of P^2 / (4 pi) in the cost, against the errors at the start
-  Real quality_perimeter = 0.35;
+  Real compact_perimeter = 1.15;  // share of sum of P^2 / (4 pi) in the cost, against the errors at the start
+  Real quality_perimeter = 0.24;
   Real over_segment = 3;        // times the wanted number, then merged
   int rounds = 8;               // of more seeds, merged back and refined again, while that helps
   Real reconsider = 1.5;        // times the wanted number in such a round

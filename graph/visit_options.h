@@ -60,6 +60,9 @@ void visit_options(Options& o, V&& v) {
   v("patches.discs", o.subdivide.discs, "cut patches until each is a disc", 0, 1);
   v("refine.compact-perimeter", o.refine.compact_perimeter, "compact: weight of P^2 / 4 pi against error", 0.0, 100.0);
   v("refine.quality-perimeter", o.refine.quality_perimeter, "quality: weight of P^2 / 4 pi against error", 0.0, 100.0);
+  v("refine.bent", o.refine.group.outline.bent, "weight of the error of patches bent to the normals at their borders",
+    0.0, 100.0);
+  v("refine.loop-points", o.refine.group.outline.loop_points, "points around a patch", Index{12}, Index{1000});
   v("refine.salience", o.refine.group.salience, "price of features inside patches", 0.0, 100.0);
   v("refine.over-segment", o.refine.over_segment, "patches before merging, times --patches", 1.0, 10.0);
   v("refine.rounds", o.refine.rounds, "more seeds, merged back and refined, so many times while it helps", 0, 100);

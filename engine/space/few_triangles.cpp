@@ -76,17 +76,19 @@ void FewTriangles::assign(std::span<const Vec3> point, std::span<const std::arra
   slack_ = kSlack * (high - low).squaredNorm();
 }
 
-Real FewTriangles::distance2(const Vec3& p) {
+FewTriangles::Nearest FewTriangles::nearest(const Vec3& p) {
   constexpr Real kRelative = 1e-6;
   Real* const estimate = estimate_.data();
   estimate_all(field_.data(), whole_lanes(triangle_.size()), p.data(), estimate);
   Real nearest = std::numeric_limits<Real>::infinity();
   for (std::size_t t = 0; t < triangle_.size(); ++t) nearest = std::min(nearest, estimate[t]);
   const Real enough = nearest * (1 + kRelative) + slack_;
-  Real least = std::numeric_limits<Real>::infinity();
+  Nearest least{std::numeric_limits<Real>::infinity(), 0, p};
   const auto ask = [&](std::size_t t) {
     const auto& [a, b, c] = triangle_[t];
-    least = std::min(least, (p - closest_on_triangle(p, point_[a], point_[b], point_[c])).squaredNorm());
+    const Vec3 q = closest_on_triangle(p, point_[a], point_[b], point_[c]);
+    const Real d2 = (p - q).squaredNorm();
+    if (d2 < least.distance2 || (d2 == least.distance2 && t < least.triangle)) least = {d2, t, q};
   };
   for (std::size_t t = 0; t < triangle_.size(); ++t)
     if (estimate[t] <= enough) ask(t);

@@ -16,7 +16,15 @@ class FewTriangles {
 
   // The least squared distance of p to a triangle, bit by bit that of closest_on_triangle(). All are estimated side by
   // side, and those asked exactly that are within the estimate's error of the nearest. Requires: a triangle.
-  Real distance2(const Vec3& p);
+  Real distance2(const Vec3& p) { return nearest(p).distance2; }
+
+  struct Nearest {
+    Real distance2;
+    std::size_t triangle;
+    Vec3 point;
+  };
+  // The same with where it is. Ties: the smaller triangle.
+  Nearest nearest(const Vec3& p);
 
  private:
   std::span<const Vec3> point_;

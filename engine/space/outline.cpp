@@ -13,8 +13,11 @@ Real length_of(std::span<const Vec3> p) {
 }
 
 // Appends the start and the inner points of `steps` even steps along p; not its end.
-void sample_piece(std::span<const Vec3> p, Real length, Index steps, std::vector<Vec3>& out) {
+// inward may be empty; at the start there is no one direction.
+void sample_piece(std::span<const Vec3> p, std::span<const Vec3> inward, Real length, Index steps,
+                  std::vector<Vec3>& out, std::vector<Vec3>& out_inward) {
   out.push_back(p.front());
+  if (!inward.empty()) out_inward.push_back(Vec3::Zero());
   Real before = 0;
   std::size_t i = 1;
   for (Index k = 1; k < steps; ++k) {
@@ -26,14 +29,22 @@ void sample_piece(std::span<const Vec3> p, Real length, Index steps, std::vector
     }
     const Real t = step > 0 ? std::clamp((at - before) / step, Real{0}, Real{1}) : 0;
     out.push_back(p[i - 1] + t * (p[i] - p[i - 1]));
+    if (inward.empty()) continue;
+    const Vec3 m = inward[i - 1] + t * (inward[i] - inward[i - 1]);
+    const Real size = m.norm();
+    out_inward.push_back(size > 0.5 ? Vec3(m / size) : Vec3(Vec3::Zero()));
   }
 }
 
 void sample_loops(const Outline& o, Index loop_points, OutlineScratch& s) {
-  s.point.clear();
+  s.point.clear(), s.inward.clear();
   s.offset.assign(1, 0);
   const std::span<const Vec3> all = o.point;
   const auto piece = [&](Index k) { return all.subspan(o.piece[k], o.piece[k + 1] - o.piece[k]); };
+  const auto inward = [&](Index k) {
+    return o.inward.empty() ? std::span<const Vec3>()
+                            : std::span(o.inward).subspan(o.piece[k], o.piece[k + 1] - o.piece[k]);
+  };
   Real longest = 0, total = 0;
   for (Index l = 0; l < o.loops(); ++l) {
     Real length = 0;
@@ -47,28 +58,37 @@ void sample_loops(const Outline& o, Index loop_points, OutlineScratch& s) {
     for (Index k = o.loop[l]; k < o.loop[l + 1]; ++k) {
       const Real length = length_of(piece(k));
       const Real wanted = longest > 0 ? std::round(length / longest * loop_points) : 1;
-      sample_piece(piece(k), length, std::max(least, static_cast<Index>(wanted)), s.point);
+      sample_piece(piece(k), inward(k), length, std::max(least, static_cast<Index>(wanted)), s.point, s.inward);
     }
     s.offset.push_back(static_cast<Index>(s.point.size()));
   }
 }
 
-Real sum_of_squares(const WeightedPoints& samples, FewTriangles& triangles) {
+// bent: nullptr for none.
+Real sum_of_squares(const WeightedPoints& samples, FewTriangles& triangles, const BentTriangles* bent, Real weight) {
   Real sum = 0;
-  for (std::size_t i = 0; i < samples.point.size(); ++i)
-    sum += samples.weight[i] * triangles.distance2(samples.point[i]);
+  for (std::size_t i = 0; i < samples.point.size(); ++i) {
+    const FewTriangles::Nearest at = triangles.nearest(samples.point[i]);
+    Real d2 = at.distance2;
+    if (bent) d2 += weight * (samples.point[i] - at.point - bent->offset_at(at.triangle, at.point)).squaredNorm();
+    sum += samples.weight[i] * d2;
+  }
   return sum;
 }
 
 // With so many points; negative if there is no triangulation.
-Real sampled_error(const Outline& outline, const WeightedPoints& samples, Index points, const OutlineOptions& options,
-                   OutlineScratch& s) {
+Real sampled_error(const Outline& outline, const WeightedPoints& samples, Index points, Real bend,
+                   const OutlineOptions& options, OutlineScratch& s) {
   if (points == 0 || outline.loops() == 0) return -1;
   sample_loops(outline, points, s);
-  const LoopsTriangulation t = triangulate_loops(s.point, s.offset, {}, options.loops, s.polygon);
+  LoopsOptions loops = options.loops;
+  loops.polygon.bend_weight *= bend;
+  const LoopsTriangulation t = triangulate_loops(s.point, s.offset, {}, loops, s.polygon);
   if (!t.ok || t.triangle.empty()) return -1;
   s.triangles.assign(s.point, t.triangle);
-  return sum_of_squares(samples, s.triangles);
+  if (s.inward.empty() || options.bent == 0) return sum_of_squares(samples, s.triangles, nullptr, 0);
+  s.bent.assign(s.point, s.inward, s.offset, t.triangle);
+  return sum_of_squares(samples, s.triangles, &s.bent, options.bent);
 }
 
 }  // namespace
@@ -83,14 +103,14 @@ Real Outline::length() const {
 Real coarse_outline_error(const Outline& outline, const WeightedPoints& samples, const OutlineOptions& options,
                           OutlineScratch& s) {
   if (samples.point.empty()) return 0;
-  return sampled_error(outline, samples, options.second_points, options, s);
+  return sampled_error(outline, samples, options.second_points, options.second_bend, options, s);
 }
 
 Real outline_error(const Outline& outline, const WeightedPoints& samples, const OutlineOptions& options,
                    OutlineScratch& s, std::optional<Real> coarse) {
   if (samples.point.empty()) return 0;
   if (!coarse) coarse = coarse_outline_error(outline, samples, options, s);
-  const Real worse = std::max(*coarse, sampled_error(outline, samples, options.loop_points, options, s));
+  const Real worse = std::max(*coarse, sampled_error(outline, samples, options.loop_points, 1, options, s));
   if (worse >= 0) return worse;
   Vec3 mean = Vec3::Zero();
   Real weight = 0;

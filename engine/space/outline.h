@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/space/bent_triangles.h"
 #include "engine/space/few_triangles.h"
 #include "engine/space/triangulate_loops.h"
 
@@ -14,12 +15,13 @@ namespace intarsia {
 // piece is the first one of the next.
 struct Outline {
   std::vector<Vec3> point;
+  std::vector<Vec3> inward;     // per point: where the patch goes from there, of unit length or zero; or empty
   std::vector<Index> piece{0};  // piece -> first point; one more than pieces
   std::vector<Index> loop{0};   // loop -> first piece; one more than loops
 
   Index loops() const { return static_cast<Index>(loop.size() - 1); }
   void clear() {
-    point.clear();
+    point.clear(), inward.clear();
     piece.assign(1, 0), loop.assign(1, 0);
   }
   // After the points of a piece (both ends included) have been appended to `point`.
@@ -42,11 +44,16 @@ struct OutlineOptions {
   // The same with a smaller number of points, 0 = not asked; the worse of both counts. Some borders have two very
   // different triangulations of nearly equal cost: which one wins must not depend on where the samples fall.
   Index second_points = 37;
+  Real second_bend = 0.5;  // times the weight of bends in that one: lids across a half-pipe win too early there
+  // Weight of the squared distance to the bent triangulation (see BentTriangles) of outlines that know their inward
+  // directions, beside that to the flat one; 0 = not asked.
+  Real bent = 0.1;
   LoopsOptions loops{.polygon = {.exact = false}, .bridges = 1, .combinations = 1};
 };
 
 struct OutlineScratch {
-  std::vector<Vec3> point;
+  std::vector<Vec3> point, inward;
+  BentTriangles bent;
   std::vector<Index> offset;
   PolygonScratch polygon;
   FewTriangles triangles;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/parallel/for_each.h"
+#include "kernels/cells/inward_directions.h"
 
 namespace intarsia::kernels {
 namespace {
@@ -18,6 +19,7 @@ void add_arcs(const Work& work, const RefinedMesh& refined, const LayoutGraph& g
   c.arc_offset = g.arc.offset;
   if (c.arc_offset.empty()) c.arc_offset.push_back(0);
   c.point.resize(g.arc.item.size());
+  for (auto& i : c.inward) i.assign(c.point.size(), Vec3::Zero());
   for_each(work, Cost::heavy, arcs, [&](std::size_t i) {
     const Index a = static_cast<Index>(i);
     const auto row = g.arc.row(a);
@@ -32,6 +34,8 @@ void add_arcs(const Work& work, const RefinedMesh& refined, const LayoutGraph& g
     Real length = 0;
     for (std::size_t k = 1; k < p.size(); ++k) length += (p[k] - p[k - 1]).norm();
     c.length[a] = length;
+    for (const int side : {0, 1})
+      inward_directions(mesh, row, p, side == 0, std::span(c.inward[side]).subspan(c.arc_offset[a], row.size()));
   });
 }
 

@@ -27,6 +27,7 @@ struct CellComplex {
   Csr cell_halves;                // cell -> its half-arcs
   std::vector<Index> arc_offset;  // arc -> its points, both ends included
   std::vector<Vec3> point;
+  std::vector<Vec3> inward[2];  // per point of an arc: where the surface goes on its left and its right, unit or zero
   std::vector<Real> length, salience;  // per arc; salience: integral of theta^2 ds
   std::vector<std::uint8_t> given;     // per arc: 1 if it carries a curve that the user gave; empty: none does
   std::vector<Real> area;              // per cell

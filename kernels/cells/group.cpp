@@ -84,6 +84,12 @@ class Walk {
       out.insert(out.end(), p.rbegin() + (fresh ? 0 : 1), p.rend());
     else
       out.insert(out.end(), p.begin() + (fresh ? 0 : 1), p.end());
+    const auto in = std::span(c_.inward[h % 2]).subspan(c_.arc_offset[h / 2], p.size());
+    auto& inward = s_.outline.inward;
+    if (h % 2)
+      inward.insert(inward.end(), in.rbegin() + (fresh ? 0 : 1), in.rend());
+    else
+      inward.insert(inward.end(), in.begin() + (fresh ? 0 : 1), in.end());
   }
   void add_loop(Index first, GroupShape& shape) {
     s_.stack.clear();

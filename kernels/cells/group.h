@@ -18,7 +18,7 @@ struct GroupOptions {
   Real perimeter_weight = 0;  // w, absolute; set by Grouping::weigh
   Real salience_weight = 0;   // s
   bool discs = true;          // groups must be discs, or no farther from it than what they are made from
-  OutlineOptions outline;
+  OutlineOptions outline{.loop_points = 64};
 };
 
 struct GroupShape {

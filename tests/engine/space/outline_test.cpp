@@ -91,3 +91,59 @@ TEST_CASE("the coarse error is no more than the error, which does not mind being
   CHECK(coarse <= all);
   CHECK(outline_error(o, samples, {}, scratch, coarse) == all);
 }
+
+TEST_CASE("a piece of a pipe is spanned along its length, and its directions tell how round it is") {
+  // Two straight sides and two half circles; samples on the pipe.
+  Outline o;
+  WeightedPoints samples;
+  constexpr int kSteps = 40;
+  const Real half = 0.6;
+  const auto at = [&](Real x, Real angle) { return Vec3(x, std::sin(angle), std::cos(angle)); };
+  const auto side = [&](Real angle, Real from, Real to) {
+    for (int k = 0; k <= kSteps; ++k) {
+      o.point.push_back(at(from + (to - from) * k / kSteps, angle));
+      o.inward.push_back((angle < 0 ? 1 : -1) * Vec3(0, std::cos(angle), -std::sin(angle)));
+    }
+    o.end_piece();
+  };
+  const auto arc = [&](Real x, Real from, Real to) {
+    for (int k = 0; k <= kSteps; ++k) {
+      o.point.push_back(at(x, from + (to - from) * k / kSteps));
+      o.inward.push_back({x > 0 ? -1.0 : 1.0, 0, 0});
+    }
+    o.end_piece();
+  };
+  side(-half, 0, 1.5), arc(1.5, -half, half), side(half, 1.5, 0), arc(0, half, -half);
+  o.end_loop();
+  for (int i = 1; i < 12; ++i)
+    for (int k = -5; k <= 5; ++k) samples.add(at(0.125 * i, half * k / 6), 1.0 / 121);
+  OutlineScratch scratch;
+  OutlineOptions flat, bent;
+  // The least area is a soap film, which sags; only a high price of bends keeps the pipe's own chords.
+  flat.loops.polygon = {.bend_weight = 0.6, .exact = true}, flat.second_points = 0;
+  bent = flat;
+  flat.bent = 0, bent.bent = 1;
+  const Real by_flat = outline_error(o, samples, flat, scratch);
+  const Real both = outline_error(o, samples, bent, scratch);
+  // Chords between the two half circles run along the pipe: off by no more than their sagitta.
+  CHECK(by_flat < 1e-4);
+  CHECK(both >= by_flat);
+  CHECK(both - by_flat < by_flat + 1e-4);  // bending does no harm here
+}
+
+TEST_CASE("a weaker price of bends in the second count never lowers the error below either") {
+  Outline o;
+  for (int k = 0; k <= 60; ++k) {
+    const Real a = 2 * std::numbers::pi * k / 60;
+    o.point.push_back({std::cos(a), std::sin(a), 0.8 * std::cos(2 * a)});
+  }
+  o.end_piece(), o.end_loop();
+  WeightedPoints samples;
+  for (int k = 0; k < 20; ++k) samples.add({0.04 * k - 0.4, 0.03 * k - 0.3, 0.1}, 0.05);
+  OutlineScratch scratch;
+  OutlineOptions all, first;
+  first.second_points = 0;
+  const Real worse = outline_error(o, samples, all, scratch), one = outline_error(o, samples, first, scratch);
+  const Real coarse = coarse_outline_error(o, samples, all, scratch);
+  CHECK(worse == std::max(one, coarse));
+}
