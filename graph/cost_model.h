@@ -24,8 +24,8 @@ struct CostModel {
   }
 };
 
-// Default options, with the preview.
-inline constexpr CostModel kRunCost{0.45, 7.5e-6, 3.75e-6, 55e6, 370, 185};
+// Default options, with preview and page. Small meshes and CAD parts, which are divided inside, set the base.
+inline constexpr CostModel kRunCost{0.45, 7.5e-6, 3.75e-6, 9e7, 370, 185};
 inline constexpr CostModel kFeaturesCost{0.02, 3.1e-6, 1.55e-6, 14e6, 255, 125};
 
 }  // namespace intarsia::graph

@@ -92,6 +92,26 @@ TEST_CASE("a mesh that needs more than --max-memory is refused before any work, 
   CHECK(features.status == 6);
 }
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(__clang__)
+TEST_CASE("a run takes no more memory than was foretold, whether the mesh is small, a CAD part or a scan") {
+  const ProgramFolder folder("foretold");
+  for (const std::vector<std::string>& shape : {std::vector<std::string>{"cube", "--triangles", "600"},
+                                                {"part", "--triangles", "20000", "--irregularity", "0.3"},
+                                                {"head", "--triangles", "60000", "--noise-edges", "0.03"}}) {
+    CAPTURE(shape[0]);
+    std::vector<std::string> make = {"make", "-o", folder / "mesh.ply", "-q"};
+    make.insert(make.begin() + 1, shape.begin(), shape.end());
+    REQUIRE(run_program(INTARSIA_PROGRAM, make, folder).status == 0);
+    const auto info = run_program(INTARSIA_PROGRAM, {"info", folder / "mesh.ply", "--json"}, folder);
+    REQUIRE(run_program(INTARSIA_PROGRAM, {"run", folder / "mesh.ply", "-o", folder / "out", "-q", "-t", "2"}, folder)
+                .status == 0);
+    const auto report = nlohmann::json::parse(test::file_text(folder / "out/report.json"));
+    CHECK(report["peak_memory_bytes"].get<double>() <=
+          nlohmann::json::parse(info.out)["forecast"]["peak_memory_bytes"].get<double>());
+  }
+}
+#endif
+
 TEST_CASE("triangles that cross are named where that is asked for") {
   const ProgramFolder folder("crossing");
   std::ofstream(folder / "cross.off") << "OFF\n6 2 0\n0 0 0\n4 0 0\n0 4 0\n1 1 -1\n1 1 1\n9 9 0\n3 0 1 2\n3 3 4 5\n";
