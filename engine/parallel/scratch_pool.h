@@ -16,7 +16,7 @@ class ScratchPool {
   class Loan {
    public:
     Loan(ScratchPool& pool, std::unique_ptr<T> item) : pool_(&pool), item_(std::move(item)) {}
-    Loan(Loan&&) = default;
+    Loan(Loan&&) noexcept = default;
     ~Loan() {
       if (item_) pool_->give_back(std::move(item_));
     }
