@@ -1,5 +1,6 @@
 #include "graph/artefacts.h"
 
+#include <cmath>
 #include <cstdio>
 #include <numbers>
 
@@ -67,6 +68,7 @@ std::size_t size_fields(const T& a) {
 
 std::vector<Warning> as_warnings(const char* code, const std::vector<std::string>& messages) {
   std::vector<Warning> warnings;
+  warnings.reserve(messages.size());
   for (const std::string& m : messages) warnings.push_back({code, m, 1, {}});
   return warnings;
 }
@@ -93,7 +95,7 @@ std::vector<Warning> warnings_of(const Surface& a) {
     warnings.push_back(
         {"noise-filtered",
          "the mesh is noisy (neighbouring triangles differ by " +
-             std::to_string(static_cast<int>(a.rough * 180 / std::numbers::pi + 0.5)) +
+             std::to_string(std::lround(a.rough * 180 / std::numbers::pi)) +
              " degrees): features were looked for on a filtered copy; results keep the input's positions",
          1,
          {}});

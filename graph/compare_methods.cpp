@@ -66,6 +66,7 @@ Patches baseline_by(const Work& work, const Prepared& p, const Network& network,
 
 std::vector<Method> all_methods() {
   std::vector<Method> all;
+  all.reserve(kNames.size());
   for (const Named& n : kNames) all.push_back(n.method);
   return all;
 }

@@ -15,14 +15,14 @@ namespace {
 class Trial {
  public:
   Trial(const Work& work, const Surface& surface, const Directions& directions, const Lines& lines,
-        const Curves& curves, const Guides& guides, LayoutOptions options)
+        const Curves& curves, const Guides& guides, const LayoutOptions& options)
       : work_(work),
         surface_(surface),
         directions_(directions),
         lines_(lines),
         curves_(curves),
         guides_(guides),
-        options_(std::move(options)) {
+        options_(options) {
     options_.tolerance = {};
   }
 
