@@ -73,6 +73,7 @@ Real max_pair_angle(std::span<const WeightedNormal> normals, Real enough) {
     std::sort(extreme.begin(), extreme.end());
     extreme.erase(std::unique(extreme.begin(), extreme.end()), extreme.end());
     std::vector<Vec3> kept;
+    kept.reserve(extreme.size());
     for (const std::size_t i : extreme) kept.push_back(candidates[i]);
     candidates.swap(kept);
   }

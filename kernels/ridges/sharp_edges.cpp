@@ -44,7 +44,7 @@ Fold fold_at(const MeshView& mesh, Index e) {
 // Median turn of the other edges of the faces around both ends: 0 beside a crease, about the noise on a rough surface.
 float median_turn_around(const MeshView& mesh, std::span<const float> turn, Index e) {
   constexpr std::size_t kMost = 192;  // a few times the usual 26; poles of high valence need no more
-  float around[kMost];
+  float around[kMost] = {};
   std::size_t n = 0;
   for (Index v : {mesh.edge_v0[e], mesh.edge_v1[e]})
     for (Index f : mesh.vertex_faces.row(v))

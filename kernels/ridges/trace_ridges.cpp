@@ -67,7 +67,7 @@ void fill_crossing(const MeshView& mesh, const CrestFields& crest, Index edge, R
 // A centre node: means over its three crossings.
 void fill_centre(const MeshView& mesh, Index face, std::span<const Index> crossing, const EdgeCrossings& crossings,
                  bool centre_of_points, Index i, FeatureCurves& out) {
-  Real weight[3] = {0, 0, 0};
+  Real weight[4] = {};  // of the corners, and what corner_of() says of others
   Vec3 n = Vec3::Zero(), t = Vec3::Zero();
   const Vec3 t0 = out.across[crossing[0]];
   for (auto* field : {&out.kd, &out.kmax, &out.kmin, &out.extremality, &out.sharpness, &out.radius}) (*field)[i] = 0;
