@@ -95,6 +95,7 @@ void add_baseline_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<BaselineFlags>();
   CLI::App* command = app.add_subcommand("baseline", "layout by one of the methods that ours is compared with");
   std::vector<std::string> methods;
+  methods.reserve(std::size(kMethods));
   for (const auto& [name, method] : kMethods) methods.push_back(name);
   command
       ->add_option(

@@ -74,6 +74,7 @@ SheetRow rebuilt_row(const char* title, const MeshNumbers& numbers, RebuiltNumbe
 Image draw_comparison(const Work& work, const graph::Surface& surface, const MeshNumbers& numbers,
                       const std::vector<DrawnMethod>& drawn, bool rebuilt, const SheetOptions& options) {
   std::vector<std::vector<Rgb>> colour;
+  colour.reserve(drawn.size());
   for (const DrawnMethod& d : drawn)
     colour.push_back(patch_colours(
         work, adjacent_patches(work, d.layout.refined.mesh, d.layout.labels.patch_of_face, d.layout.labels.count)));

@@ -27,6 +27,7 @@ Handover handover_of(const Work& work, const Soup& soup, const graph::Surface& s
 
 std::vector<std::array<std::uint8_t, 3>> bytes_of(const std::vector<Rgb>& colour) {
   std::vector<std::array<std::uint8_t, 3>> rgb;
+  rgb.reserve(colour.size());
   for (const Rgb& c : colour) rgb.push_back({c.r, c.g, c.b});
   return rgb;
 }

@@ -91,8 +91,8 @@ std::vector<BatchItem> find_items(const fs::path& input) {
   for (const fs::path& file : files) {
     const fs::path path = file.lexically_normal();
     std::string name = path.stem().string();
-    if (is_reserved(name)) name = "mesh-" + name;
-    if (taken.contains(name)) name = path.parent_path().filename().string() + "-" + name;
+    if (is_reserved(name)) name.insert(0, "mesh-");
+    if (taken.contains(name)) name.insert(0, path.parent_path().filename().string() + "-");
     const std::string wanted = name;
     for (int i = 2; taken.contains(name); ++i) name = wanted + "-" + std::to_string(i);
     taken.insert(name);

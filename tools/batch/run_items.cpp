@@ -133,6 +133,7 @@ class Batch {
                                    std::to_string(threads)};
     words.insert(words.end(), plan_.run_options.begin(), plan_.run_options.end());
     std::vector<char*> argv;
+    argv.reserve(words.size() + 1);
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
     const std::string log = log_file(plan_.results, w.item->name).string();
@@ -217,6 +218,7 @@ class Batch {
 BatchCount run_items(const std::vector<BatchItem>& items, const BatchPlan& plan, const ForecastOf& forecast_of,
                      const OnItem& on_item, const std::atomic<bool>& stop) {
   std::vector<Waiting> waiting;
+  waiting.reserve(items.size());
   for (const BatchItem& item : items) waiting.push_back({&item, forecast_of(item.input)});
   std::stable_sort(waiting.begin(), waiting.end(),
                    [](const Waiting& a, const Waiting& b) { return a.forecast.cpu_seconds > b.forecast.cpu_seconds; });

@@ -241,7 +241,7 @@ void write_page(const Work& work, const std::filesystem::path& path, const Hando
   } else if (!deviation.empty()) {
     meta["deviation"] = json::parse(options.earlier.deviation_meta);
   }
-  const std::string features =
+  std::string features =
       handover.features ? base64(feature_bytes(*handover.features, layout, grid).bytes()) : options.earlier.features;
   FileWriter out(path);
   fill_template(out, kPageTemplate, [&](std::string_view name) -> std::string {
