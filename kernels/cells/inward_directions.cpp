@@ -21,7 +21,9 @@ Vec3 unit_or_zero(const Vec3& v) {
 class ArcSide {
  public:
   ArcSide(const MeshView& mesh, std::span<const Index> vertex, bool left)
-      : mesh_(mesh), vertex_(vertex), sign_(left ? 1 : -1) {}
+      : mesh_(mesh), vertex_(vertex), sorted_(vertex.begin(), vertex.end()), sign_(left ? 1 : -1) {
+    std::sort(sorted_.begin(), sorted_.end());
+  }
 
   // Of the faces on this side of vertex i: those of the second ring, else those around it.
   Vec3 normal(std::size_t i) const {
@@ -50,10 +52,11 @@ class ArcSide {
   }
 
  private:
-  bool is_on_arc(Index v) const { return std::find(vertex_.begin(), vertex_.end(), v) != vertex_.end(); }
+  bool is_on_arc(Index v) const { return std::binary_search(sorted_.begin(), sorted_.end(), v); }
 
   const MeshView& mesh_;
   std::span<const Index> vertex_;
+  std::vector<Index> sorted_;  // borders of patches of a large scan have thousands
   Real sign_;
 };
 
